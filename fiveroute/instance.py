@@ -1,0 +1,323 @@
+"""A mission as the user states it: nodes, fleet, ocean and uncertainty.
+
+SI units throughout: metres, seconds, metres per second; x east, y north. Every class here
+is frozen and validates itself, whether it is read from a file or built in Python. The
+solvers never see an instance: they see the `TeamOrienteering` problem it turns into.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import (
+    AfterValidator,
+    ConfigDict,
+    Field,
+    NonNegativeFloat,
+    PositiveFloat,
+    PositiveInt,
+)
+from pydantic.dataclasses import dataclass
+
+from fiveroute.errors import InputError
+from fiveroute.metric import Metric, distances
+from fiveroute.problem import TeamOrienteering
+
+__all__ = [
+    "Circle",
+    "Currents",
+    "Fleet",
+    "Instance",
+    "Node",
+    "Ocean",
+    "Point",
+    "Polygon",
+    "Service",
+    "Uncertainty",
+    "Uniform",
+    "Vortex",
+]
+
+_STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+
+
+@dataclass(frozen=True, slots=True, config=_STRICT)
+class Point:
+    """A position in metres."""
+
+    x: float
+    y: float
+
+
+@dataclass(frozen=True, slots=True, config=_STRICT)
+class Node:
+    """A sensor node.
+
+    Parameters
+    ----------
+    id
+        Its name, unique in the instance.
+    x, y
+        Position in metres.
+    data
+        Amount of data rho_j.
+    service_time
+        Time t_j in seconds to collect it; None leaves it to `Service`.
+    """
+
+    id: Annotated[str, Field(min_length=1)]
+    x: float
+    y: float
+    data: NonNegativeFloat
+    service_time: NonNegativeFloat | None = None
+
+
+@dataclass(frozen=True, slots=True, config=_STRICT)
+class Fleet:
+    """The AUVs.
+
+    Parameters
+    ----------
+    size
+        Number M of AUVs; None leaves it to the estimate of tier 1.
+    speed
+        Speed through the water in metres per second.
+    endurance
+        T_max in seconds, one number for all AUVs or one for each; None is unlimited.
+    """
+
+    size: PositiveInt | None
+    speed: PositiveFloat
+    endurance: PositiveFloat | tuple[PositiveFloat, ...] | None
+
+
+@dataclass(frozen=True, slots=True, config=_STRICT)
+class Service:
+    """Time to collect data, t_j = delay + rate * rho_j in seconds, equation (30)."""
+
+    delay: NonNegativeFloat = 0.0
+    rate: NonNegativeFloat = 0.0
+
+
+@dataclass(frozen=True, slots=True, config=_STRICT)
+class Vortex:
+    """A Lamb vortex, equation (10): circulation in m2/s (signed), core radius in metres."""
+
+    x: float
+    y: float
+    circulation: float
+    radius: PositiveFloat
+
+
+@dataclass(frozen=True, slots=True, config=_STRICT)
+class Uniform:
+    """A uniform current in metres per second, u east and v north."""
+
+    u: float
+    v: float
+
+
+@dataclass(frozen=True, slots=True, config=_STRICT)
+class Currents:
+    """Parts of a current field, which add up; `file` names a CF netCDF file."""
+
+    vortices: tuple[Vortex, ...] = ()
+    uniform: Uniform | None = None
+    file: str | None = None
+
+
+@dataclass(frozen=True, slots=True, config=_STRICT)
+class Circle:
+    """A round obstacle, in metres."""
+
+    x: float
+    y: float
+    radius: PositiveFloat
+
+
+@dataclass(frozen=True, slots=True, config=_STRICT)
+class Polygon:
+    """A polygon, its corners (x, y) in metres in either sense of rotation."""
+
+    polygon: Annotated[tuple[tuple[float, float], ...], Field(min_length=3)]
+
+
+@dataclass(frozen=True, slots=True, config=_STRICT)
+class Ocean:
+    """Currents, obstacles and land."""
+
+    currents: Currents = Currents()
+    obstacles: tuple[Circle | Polygon, ...] = ()
+    land: tuple[Polygon, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, config=_STRICT)
+class Uncertainty:
+    """What makes a real leg time differ from the planned one, equation (12).
+
+    f(t) = max(floor * t, t + N(0, (drift * t)^2) + K * manoeuvre_time) with K Poisson
+    of mean manoeuvres_per_km times the length of the leg in kilometres.
+
+    Parameters
+    ----------
+    drift
+        Standard deviation of the current term, as a share of the leg time.
+    manoeuvres_per_km
+        Mean number of avoidance manoeuvres per kilometre.
+    manoeuvre_time
+        Seconds lost in each of them.
+    floor
+        Least share of the planned leg time that a real leg can take.
+    """
+
+    drift: NonNegativeFloat = 0.0
+    manoeuvres_per_km: NonNegativeFloat = 0.0
+    manoeuvre_time: NonNegativeFloat = 0.0
+    floor: Annotated[float, Field(ge=0.0, le=1.0)] = 0.2
+
+
+def _unique_ids(nodes: tuple[Node, ...]) -> tuple[Node, ...]:
+    for name, count in Counter(node.id for node in nodes).items():
+        if count > 1:
+            where = [i for i, node in enumerate(nodes) if node.id == name]
+            raise ValueError(f"id {name!r} stands at nodes {where}; every id must be unique")
+    return nodes
+
+
+@dataclass(frozen=True, slots=True, config=_STRICT)
+class Instance:
+    """A whole mission.
+
+    Parameters
+    ----------
+    name
+        Name of the instance.
+    nodes
+        Sensor nodes; none is legal, and gives an empty plan.
+    start, destination
+        Where the fleet is released and recovered; they may coincide.
+    fleet, service, ocean, uncertainty
+        See their classes.
+    crs
+        Coordinate reference system; None means local metres.
+    metric
+        How coordinates become distances; ``euclidean`` but for benchmark formats.
+    travel_times
+        Leg times in seconds between start, nodes and destination, in this order, for the
+        metric ``explicit``; they may be asymmetric.
+    """
+
+    name: str
+    nodes: Annotated[tuple[Node, ...], AfterValidator(_unique_ids)]
+    start: Point
+    destination: Point
+    fleet: Fleet
+    service: Service = Service()
+    ocean: Ocean = Ocean()
+    uncertainty: Uncertainty = Uncertainty()
+    crs: str | None = None
+    metric: Metric = "euclidean"
+    travel_times: tuple[tuple[NonNegativeFloat, ...], ...] | None = None
+
+    def __post_init__(self) -> None:
+        if self.crs is not None:
+            raise InputError(
+                "only local metres are supported; project the coordinates and set crs to null",
+                field="crs",
+                value=self.crs,
+            )
+        endurance = self.fleet.endurance
+        if isinstance(endurance, tuple) and self.fleet.size not in (None, len(endurance)):
+            raise InputError(
+                f"endurance has {len(endurance)} entries; give one number, or one per AUV",
+                field="fleet.size",
+                value=self.fleet.size,
+            )
+        if (self.metric == "explicit") != (self.travel_times is not None):
+            raise InputError(
+                "the metric 'explicit' and travel_times go together; give both or neither",
+                field="metric",
+                value=self.metric,
+            )
+        if self.travel_times is not None:
+            size = len(self.nodes) + 2
+            rows = [len(self.travel_times), *map(len, self.travel_times)]
+            if any(row != size for row in rows):
+                raise InputError(
+                    f"must be {size} rows of {size} times: start, nodes, destination",
+                    field="travel_times",
+                )
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """Positions of start, nodes and destination in metres, shape (n + 2, 2)."""
+        stops: list[Point | Node] = [self.start, *self.nodes, self.destination]
+        return np.array([(stop.x, stop.y) for stop in stops], dtype=np.float64)
+
+    @property
+    def travel(self) -> NDArray[np.float64]:
+        """Leg times t_ij in still water in seconds, equation (1), shape (n + 2, n + 2)."""
+        if self.travel_times is not None:
+            return np.array(self.travel_times, dtype=np.float64)
+        matrix = distances(self.metric, self.points)
+        return np.divide(matrix, self.fleet.speed, out=matrix)
+
+    @property
+    def service_times(self) -> NDArray[np.float64]:
+        """Service times in seconds, shape (n + 2,), zero at both ends."""
+        return _at_nodes(
+            [
+                self.service.delay + self.service.rate * node.data
+                if node.service_time is None
+                else node.service_time
+                for node in self.nodes
+            ]
+        )
+
+    @property
+    def fleet_size(self) -> int | None:
+        """Number of AUVs that the file states; None leaves it to tier 1."""
+        endurance = self.fleet.endurance
+        return len(endurance) if isinstance(endurance, tuple) else self.fleet.size
+
+    def problem(self, fleet_size: int | None = None) -> TeamOrienteering:
+        """The combinatorial problem in still water.
+
+        Parameters
+        ----------
+        fleet_size
+            Number of AUVs; None takes that of the instance.
+
+        Raises
+        ------
+        InputError
+            If no fleet size is known, or it contradicts the endurances.
+        """
+        stated = self.fleet_size
+        size = stated if fleet_size is None else fleet_size
+        endurance = self.fleet.endurance
+        if size is None or size < 1:
+            raise InputError(
+                "the fleet needs a size of at least 1; set fleet.size or pass --fleet-size",
+                field="fleet.size",
+                value=size,
+            )
+        if isinstance(endurance, tuple) and size != stated:
+            raise InputError(
+                f"fleet.endurance names {stated} AUVs; leave the fleet size to it",
+                field="fleet size",
+                value=size,
+            )
+        travel, service = self.travel, self.service_times
+        if endurance is None:
+            endurance = float(travel.max(axis=1).sum() + service.sum()) or 1.0
+        budgets = endurance if isinstance(endurance, tuple) else (endurance,) * size
+        data = _at_nodes([node.data for node in self.nodes])
+        return TeamOrienteering(travel, service, data, budgets)
+
+
+def _at_nodes(values: list[float]) -> NDArray[np.float64]:
+    return np.array([0.0, *values, 0.0], dtype=np.float64)

@@ -1,0 +1,93 @@
+"""When to stop: a description that can be used again and again, and the clock it starts."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from fiveroute.errors import InputError
+
+__all__ = ["Clock", "Limits", "Progress", "ProgressCallback"]
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """A snapshot that a running method hands to its progress callback."""
+
+    seconds: float
+    objective: float | None = None
+    bound: float | None = None
+    message: str = ""
+
+
+ProgressCallback = Callable[[Progress], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """When a method must stop. One description serves many runs: each starts its own clock.
+
+    Parameters
+    ----------
+    time
+        Wall-clock time in seconds.
+    gap
+        Relative optimality gap (bound - objective) / objective at which to stop.
+    interrupt
+        Set from outside (Ctrl-C) to ask for the best answer so far.
+    """
+
+    time: float = math.inf
+    gap: float = 0.0
+    interrupt: threading.Event = field(default_factory=threading.Event, compare=False)
+
+    def __post_init__(self) -> None:
+        for name in ("time", "gap"):
+            value = getattr(self, name)
+            if not value >= 0.0:
+                raise InputError("a limit must not be negative", field=name, value=value)
+
+    def start(self) -> Clock:
+        """Start a fresh clock."""
+        return Clock(self)
+
+    def within(self, time: float) -> Limits:
+        """The same description with at most `time` seconds."""
+        return Limits(min(self.time, max(time, 0.0)), self.gap, self.interrupt)
+
+
+class Clock:
+    """One run's stop-watch; `expired` is cheap enough to ask in every iteration."""
+
+    __slots__ = ("_start", "limits")
+
+    def __init__(self, limits: Limits) -> None:
+        self.limits = limits
+        self._start = time.perf_counter()
+
+    @property
+    def seconds(self) -> float:
+        """Seconds since the start."""
+        return time.perf_counter() - self._start
+
+    @property
+    def left(self) -> float:
+        """Seconds left; infinite without a time limit, never negative."""
+        return max(self.limits.time - self.seconds, 0.0)
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether somebody asked for the best answer so far."""
+        return self.limits.interrupt.is_set()
+
+    @property
+    def expired(self) -> bool:
+        """Whether the run must end now."""
+        return self.interrupted or self.left <= 0.0
+
+    def rest(self) -> Limits:
+        """What is left, as the description for a sub-step."""
+        return self.limits.within(self.left)
