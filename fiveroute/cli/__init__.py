@@ -1,1 +1,75 @@
-"""Placeholder."""
+"""The command line. One file a command; each is imported only when it is called."""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+
+import click
+
+import fiveroute
+from fiveroute.errors import FiverouteError
+
+__all__ = ["main"]
+
+COMMANDS = {
+    "plan": "Plan a fleet: routes for every AUV, and how far they are from optimal.",
+    "solve": "Solve exactly: the best plan with a proof, or the best bound in the time given.",
+    "giant-route": "One route through every node: tier 1's first step alone.",
+    "gap": "Compare the planner with exact solutions or bounds, a row an instance.",
+    "verify": "Judge a plan: every violation, with its AUV, node and amount.",
+    "generate": "Make scenarios: the paper's distribution and other layouts.",
+    "convert": "Translate an instance from one file format to another.",
+    "experiment": "Repeat the paper's experiments: tables, pictures, figures side by side.",
+}
+
+INTERRUPTED = 130
+
+
+class _LazyGroup(click.Group):
+    """A group that knows its commands' names and imports a command when it is called."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        if cmd_name not in COMMANDS:
+            return None
+        module = import_module(f"fiveroute.cli.{cmd_name.replace('-', '_')}")
+        command: click.Command = module.command
+        return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+
+@click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(fiveroute.__version__, prog_name="fiveroute")
+def _fiveroute() -> None:
+    """Plan fleets of autonomous underwater vehicles over fixed sensor nodes."""
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the command line and exit with its code.
+
+    0 done; 1 done and the answer is no; 2 wrong input or call, with one line on standard
+    error; 3 stopped by a limit with nothing found; 130 interrupted.
+    """
+    try:
+        code = _fiveroute.main(arguments, prog_name="fiveroute", standalone_mode=False)
+    except FiverouteError as error:
+        code = _complain(str(error), 2)
+    except click.exceptions.NoArgsIsHelpError as error:
+        click.echo(error.ctx.get_help() if error.ctx else str(error), err=True)
+        code = 2
+    except click.ClickException as error:
+        code = _complain(" ".join(error.format_message().split()), 2)
+    except (KeyboardInterrupt, click.Abort):
+        code = _complain("interrupted", INTERRUPTED)
+    sys.exit(code if isinstance(code, int) else 0)
+
+
+def _complain(sentence: str, code: int) -> int:
+    click.echo(f"fiveroute: {sentence}", err=True)
+    return code

@@ -1,0 +1,142 @@
+"""Answers of the command line: one JSON document, or a short table for people."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from fiveroute.instance import Instance
+from fiveroute.plan import Plan, Route
+from fiveroute.problem import TeamOrienteering
+from fiveroute.result import Result, Status
+
+if TYPE_CHECKING:
+    from fiveroute.mission import MissionPlan
+
+__all__ = [
+    "exit_code",
+    "gap_text",
+    "named",
+    "plan_answer",
+    "print_json",
+    "print_routes",
+    "print_table",
+    "solve_answer",
+]
+
+_CODES = {Status.OPTIMAL: 0, Status.FEASIBLE: 0, Status.INFEASIBLE: 1, Status.NO_SOLUTION: 3}
+
+
+def exit_code(status: Status, interrupted: bool) -> int:
+    """Exit code of a run: 0 done, 1 no plan exists, 3 nothing found, 130 interrupted."""
+    return 130 if interrupted else _CODES[status]
+
+
+def named(instance: Instance, route: Route) -> list[str]:
+    """Ids of the nodes of a route."""
+    return [instance.nodes[vertex - 1].id for vertex in route]
+
+
+def solve_answer(instance: Instance, problem: TeamOrienteering, result: Result) -> dict[str, Any]:
+    """The keys that `solve` and `plan` share."""
+    plan = result.plan or Plan(())
+    total = problem.total_profit
+    objective = result.objective
+    return {
+        "instance": instance.name,
+        "method": result.method,
+        "status": result.status.value,
+        "objective": objective,
+        "bound": result.bound,
+        "gap": result.gap,
+        "completion_rate": _completion(objective, total),
+        "fleet_size": problem.fleet_size,
+        "routes": [named(instance, route) for route in plan.routes],
+        "durations": list(plan.durations(problem)),
+        "seconds": result.seconds,
+        "seed": result.seed,
+    }
+
+
+def plan_answer(planned: MissionPlan) -> dict[str, Any]:
+    """What `plan` adds: how the paper's pipeline came to its routes."""
+    instance = planned.instance
+    return {
+        **solve_answer(instance, planned.problem, planned.result),
+        "search": planned.search,
+        "allocation": planned.allocation,
+        "fleet_estimate": planned.fleet_estimate,
+        "giant_route": {
+            "order": named(instance, planned.giant_route),
+            "duration": planned.giant_route_duration,
+        },
+        "segments": [named(instance, segment) for segment in planned.segments],
+    }
+
+
+def _completion(objective: float | None, total: float) -> float | None:
+    """Theta, equation (31); with no data to collect, all of it is collected."""
+    if objective is None:
+        return None
+    return objective / total if total > 0.0 else 1.0
+
+
+def print_json(answer: Mapping[str, Any]) -> None:
+    """Print one JSON document on standard output."""
+    click.echo(json.dumps(answer, allow_nan=False))
+
+
+def print_routes(answer: Mapping[str, Any]) -> None:
+    """Print a plan for people: a row an AUV, and the figures that matter."""
+    rows = [
+        (f"AUV {auv}", len(route), _clock(duration), " ".join(route) or "straight home")
+        for auv, (route, duration) in enumerate(
+            zip(answer["routes"], answer["durations"], strict=True), start=1
+        )
+    ]
+    print_table(answer["instance"], ("", "nodes", "time", "route"), rows)
+    for name, text in _figures(answer):
+        click.echo(f"{name:<16}{text}")
+
+
+def _figures(answer: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    yield "status", f"{answer['status']} ({answer['method']}, {answer['seconds']:.1f} s)"
+    if answer["objective"] is not None:
+        rate = answer["completion_rate"]
+        yield "collected", f"{answer['objective']:.6g} ({100 * rate:.1f} % of all data)"
+    if answer["bound"] is not None:
+        yield "proven bound", f"{answer['bound']:.6g}"
+    yield "optimality gap", gap_text(answer["gap"])
+    if answer.get("fleet_estimate") is not None:
+        yield "fleet estimate", f"{answer['fleet_estimate']:.2f} AUVs"
+
+
+def _clock(seconds: float) -> str:
+    """Seconds as h:mm:ss where they are at least a minute."""
+    if seconds < 60.0:
+        return f"{seconds:.4g} s"
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes // 60}:{minutes % 60:02d}:{rest:02d}"
+
+
+def print_table(title: str, header: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
+    """Print a table for people; figures are flush right."""
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(title=title, title_justify="left", box=None, pad_edge=False)
+    for column, name in enumerate(header):
+        table.add_column(name, justify="left" if column == 0 else "right", overflow="fold")
+    for row in rows:
+        table.add_row(*map(str, row))
+    Console(soft_wrap=False, highlight=False).print(table)
+
+
+def gap_text(gap: float | None) -> str:
+    """A gap as people read it."""
+    if gap is None:
+        return "unknown"
+    return "0 (optimal)" if gap == 0.0 else f"{100 * gap:.2f} %"

@@ -1,0 +1,71 @@
+"""Options that several commands share, each defined once."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import click
+
+__all__ = [
+    "fleet_size",
+    "force",
+    "instance",
+    "json_output",
+    "output",
+    "seed",
+    "straight_lines",
+    "time_limit",
+]
+
+
+class _Seconds(click.ParamType[float]):
+    name = "seconds"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
+        try:
+            seconds = float(value)
+        except ValueError:
+            seconds = math.nan
+        if not seconds > 0.0:
+            self.fail(f"{value!r} is not a positive number of seconds", param, ctx)
+        return seconds
+
+
+SECONDS = _Seconds()
+
+instance = click.argument("instance", type=click.Path(path_type=Path))
+
+fleet_size = click.option(
+    "--fleet-size",
+    type=click.IntRange(min=1),
+    metavar="M",
+    help="Number of AUVs; without it that of the instance.",
+)
+time_limit = click.option(
+    "--time-limit", type=SECONDS, default=math.inf, metavar="S", help="Wall-clock seconds."
+)
+seed = click.option(
+    "--seed",
+    type=click.IntRange(min=0),
+    default=0,
+    show_default=True,
+    help="Same seed, same answer, as long as no time limit cuts it short.",
+)
+straight_lines = click.option(
+    "--straight-lines", is_flag=True, help="Ignore the ocean: straight legs in still water."
+)
+json_output = click.option(
+    "--json", "as_json", is_flag=True, help="Print one JSON document on standard output."
+)
+force = click.option("--force", is_flag=True, help="Overwrite existing files.")
+
+
+def output(help_text: str, *, required: bool = False) -> Any:
+    """``--output`` with its own words."""
+    return click.option(
+        "--output", type=click.Path(path_type=Path), required=required, help=help_text
+    )

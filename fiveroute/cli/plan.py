@@ -1,0 +1,105 @@
+"""``fiveroute plan``: the main job."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from fiveroute.cli import options
+
+__all__ = ["command"]
+
+
+@click.command("plan")
+@options.instance
+@options.fleet_size
+@options.time_limit
+@options.seed
+@click.option(
+    "--allocation",
+    type=click.Choice(["giant-route", "voronoi", "k-means", "ahc"]),
+    default="giant-route",
+    show_default=True,
+    help="How the paper's pipeline first shares the nodes out.",
+)
+@click.option(
+    "--search",
+    type=click.Choice(["fleet", "paper"]),
+    default="fleet",
+    show_default=True,
+    help="paper: Algorithm 1 alone; fleet: then a search over the whole fleet.",
+)
+@click.option(
+    "--bound",
+    type=click.Choice(["none", "quick", "exact"]),
+    default="quick",
+    show_default=True,
+    help="Where the optimality gap comes from.",
+)
+@click.option(
+    "--samples",
+    type=click.IntRange(min=0),
+    default=0,
+    show_default=True,
+    help="Plan on this many sampled leg times (S-GGARP); 0 plans on the given ones.",
+)
+@click.option(
+    "--quantile",
+    type=click.FloatRange(0.0, 1.0),
+    help="Quantile of a route's sampled time that must fit the endurance; default: the mean.",
+)
+@options.straight_lines
+@options.output("Write the plan to this file.")
+@options.force
+@options.json_output
+@click.pass_context
+def command(
+    ctx: click.Context,
+    instance: Path,
+    fleet_size: int | None,
+    time_limit: float,
+    seed: int,
+    allocation: str,
+    search: str,
+    bound: str,
+    samples: int,
+    quantile: float | None,
+    straight_lines: bool,
+    output: Path | None,
+    force: bool,
+    as_json: bool,
+) -> None:
+    """Fleet size, routes for every AUV, completion rate and optimality gap for INSTANCE."""
+    from fiveroute.cli import answers, files
+    from fiveroute.cli.running import run
+    from fiveroute.limits import Limits
+    from fiveroute.mission import plan_mission
+
+    files.require_writable(output, force)
+    mission = files.read(instance, straight_lines)
+    outcome = run(
+        lambda limits, progress: plan_mission(
+            mission,
+            fleet_size=fleet_size,
+            allocation=allocation,
+            search=search,
+            bound=bound,
+            samples=samples,
+            quantile=quantile,
+            limits=limits,
+            seed=seed,
+            progress=progress,
+        ),
+        Limits(time_limit),
+    )
+    planned = outcome.value
+    result = planned.result
+    if output is not None and result.plan is not None:
+        files.write_plan(output, mission, planned.problem, result, force)
+    answer = answers.plan_answer(planned)
+    if as_json:
+        answers.print_json(answer)
+    else:
+        answers.print_routes(answer)
+    ctx.exit(answers.exit_code(result.status, outcome.interrupted))

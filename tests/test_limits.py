@@ -1,0 +1,42 @@
+import math
+
+import pytest
+
+from fiveroute.errors import InputError
+from fiveroute.limits import Limits
+
+
+def test_without_limits_a_clock_never_expires() -> None:
+    clock = Limits().start()
+    assert clock.left == math.inf
+    assert not clock.expired
+
+
+def test_no_time_at_all_expires_at_once() -> None:
+    assert Limits(time=0.0).start().expired
+
+
+def test_an_interrupt_expires_every_clock_of_the_description() -> None:
+    limits = Limits()
+    clock, part = limits.start(), limits.within(5.0).start()
+    limits.interrupt.set()
+    assert clock.expired
+    assert part.interrupted
+
+
+def test_each_start_is_fresh() -> None:
+    limits = Limits(time=1000.0)
+    first = limits.start()
+    assert limits.start().left >= first.left
+
+
+def test_within_never_extends() -> None:
+    assert Limits(time=3.0).within(5.0).time == 3.0
+    assert Limits(time=3.0).within(-1.0).time == 0.0
+    assert Limits(time=3.0, gap=0.1).within(2.0).gap == 0.1
+
+
+@pytest.mark.parametrize("bad", [{"time": -1.0}, {"gap": -0.1}, {"time": math.nan}])
+def test_negative_limits_are_refused(bad: dict[str, float]) -> None:
+    with pytest.raises(InputError, match="must not be negative"):
+        Limits(**bad)  # type: ignore[arg-type]
