@@ -11,16 +11,20 @@ import click
 from fiveroute.instance import Instance
 from fiveroute.plan import Plan, Route
 from fiveroute.problem import TeamOrienteering
-from fiveroute.result import Result, Status
+from fiveroute.result import GiantRouteResult, Result, Status
 
 if TYPE_CHECKING:
+    from fiveroute.experiments.gap_table import GapRow, GapSummary
     from fiveroute.mission import MissionPlan
 
 __all__ = [
     "exit_code",
     "gap_text",
+    "giant_route_answer",
     "named",
     "plan_answer",
+    "print_gaps",
+    "print_giant_route",
     "print_json",
     "print_routes",
     "print_table",
@@ -77,6 +81,30 @@ def plan_answer(planned: MissionPlan) -> dict[str, Any]:
     }
 
 
+def giant_route_answer(instance: Instance, result: GiantRouteResult, seed: int) -> dict[str, Any]:
+    """The keys of `giant-route`; a closed tour begins with the start's own id."""
+    order = named(instance, result.order)
+    if instance.start == instance.destination:
+        order = [_start_id(instance), *order]
+    return {
+        "instance": instance.name,
+        "method": result.method,
+        "status": result.status.value,
+        "order": order,
+        "duration": result.duration,
+        "bound": result.bound,
+        "gap": result.gap,
+        "seconds": result.seconds,
+        "seed": seed,
+    }
+
+
+def _start_id(instance: Instance) -> str:
+    """Formats without ids number the start as 1; a native file does not name it."""
+    numbered = all(node.id == str(i) for i, node in enumerate(instance.nodes, start=2))
+    return "1" if numbered else "start"
+
+
 def _completion(objective: float | None, total: float) -> float | None:
     """Theta, equation (31); with no data to collect, all of it is collected."""
     if objective is None:
@@ -100,6 +128,43 @@ def print_routes(answer: Mapping[str, Any]) -> None:
     print_table(answer["instance"], ("", "nodes", "time", "route"), rows)
     for name, text in _figures(answer):
         click.echo(f"{name:<16}{text}")
+
+
+def print_giant_route(answer: Mapping[str, Any]) -> None:
+    """Print a giant route for people."""
+    click.echo(" ".join(answer["order"]))
+    click.echo(f"{'duration':<16}{answer['duration']:.10g} ({_clock(answer['duration'])})")
+    if answer["bound"] is not None:
+        click.echo(f"{'proven bound':<16}{answer['bound']:.10g}")
+    click.echo(f"{'optimality gap':<16}{gap_text(answer['gap'])}")
+
+
+def print_gaps(rows: Sequence[GapRow], summary: GapSummary) -> None:
+    """Print a gap table for people."""
+    cells = [
+        (
+            row.instance,
+            row.nodes,
+            row.fleet_size,
+            _number(row.heuristic),
+            _number(row.bound),
+            _number(row.best_known),
+            gap_text(row.gap),
+            f"{row.seconds:.1f} s",
+        )
+        for row in rows
+    ]
+    header = ("instance", "nodes", "AUVs", "plan", "bound", "best known", "gap", "time")
+    print_table("", header, cells)
+    click.echo(
+        f"{summary.instances} instances, {summary.proved} proved optimal, "
+        f"{summary.reached} at the best known value; gap mean {gap_text(summary.mean_gap)}, "
+        f"median {gap_text(summary.median_gap)}, worst {gap_text(summary.worst_gap)}"
+    )
+
+
+def _number(value: float | None) -> str:
+    return "-" if value is None else f"{value:.6g}"
 
 
 def _figures(answer: Mapping[str, Any]) -> Iterator[tuple[str, str]]:

@@ -1,0 +1,128 @@
+"""The plotting room: the only place that knows matplotlib.
+
+Every function draws one figure and returns it; `save` writes it. Colours are those of
+Okabe and Ito (2008), which colour-blind readers can tell apart.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from fiveroute.errors import InputError
+from fiveroute.instance import Instance
+from fiveroute.plan import Route
+
+__all__ = ["Panel", "completion_boxes", "route_panels", "save"]
+
+_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+_IDLE = "#999999"
+
+
+@dataclass(frozen=True, slots=True)
+class Panel:
+    """One map: routes over the nodes, each in its own colour.
+
+    Parameters
+    ----------
+    title
+        Words above it.
+    routes
+        Routes from start to destination.
+    open_ends
+        Whether the legs to start and destination are left out: a segment of the giant
+        route, not a route yet.
+    """
+
+    title: str
+    routes: tuple[Route, ...]
+    open_ends: bool = False
+
+
+def route_panels(instance: Instance, panels: Sequence[Panel]) -> Figure:
+    """Maps side by side, like the paper's Figs. 3 and 6.
+
+    Nodes are circles whose area grows with their data, filled where visited; the start is
+    a triangle, the destination a star. Distances are in kilometres.
+    """
+    figure = Figure(figsize=(4.6 * len(panels), 5.0), layout="constrained")
+    axes = figure.subplots(1, len(panels), squeeze=False)[0]
+    points = instance.points / 1000.0
+    data = np.array([node.data for node in instance.nodes])
+    for axis, panel in zip(axes, panels, strict=True):
+        _draw_map(axis, points, data, panel)
+    return figure
+
+
+def _draw_map(
+    axis: Axes, points: NDArray[np.float64], data: NDArray[np.float64], panel: Panel
+) -> None:
+    area = 12.0 + 60.0 * data / max(float(data.max(initial=0.0)), 1e-12)
+    colours = np.full(len(data), _IDLE, dtype=object)
+    for auv, route in enumerate(panel.routes):
+        colour = _COLOURS[auv % len(_COLOURS)]
+        stops = [*route] if panel.open_ends else [0, *route, len(points) - 1]
+        axis.plot(*points[stops].T, color=colour, linewidth=1.3, zorder=1, label=f"AUV {auv + 1}")
+        colours[[node - 1 for node in route]] = colour
+    idle = colours == _IDLE
+    x, y = points[1:-1].T
+    axis.scatter(x[~idle], y[~idle], s=area[~idle], c=list(colours[~idle]), zorder=2)
+    axis.scatter(x[idle], y[idle], s=area[idle], facecolors="none", edgecolors=_IDLE, zorder=2)
+    axis.plot(*points[0], "^", color="black", markersize=10, zorder=3)
+    axis.plot(*points[-1], "*", color="black", markersize=13, zorder=3)
+    axis.set(title=panel.title, aspect="equal", xlabel="x, km", ylabel="y, km")
+    if len(panel.routes) > 1:
+        axis.legend(loc="upper right", fontsize="small", framealpha=0.8)
+
+
+def completion_boxes(
+    title: str, samples: Mapping[str, Sequence[float]], published: Mapping[str, float]
+) -> Figure:
+    """Box chart of completion rates, like the paper's Figs. 7 and 8.
+
+    Box: quartiles; line: median; short mark: mean; whiskers: the farthest values within
+    1.5 quartile distances; circles: outliers; diamond: the mean that the paper publishes.
+    """
+    figure = Figure(figsize=(1.3 * len(samples) + 2.0, 4.2), layout="constrained")
+    axis = figure.subplots()
+    axis.boxplot(
+        list(samples.values()),
+        tick_labels=list(samples),
+        widths=0.5,
+        showmeans=True,
+        meanprops={"marker": "_", "markeredgecolor": _COLOURS[1], "markersize": 14},
+        medianprops={"color": _COLOURS[0]},
+        flierprops={"marker": "o", "markersize": 4},
+    )
+    for place, name in enumerate(samples, start=1):
+        if name in published:
+            axis.plot(place + 0.36, published[name], "D", color=_COLOURS[2], markersize=5)
+    axis.plot([], [], "_", color=_COLOURS[1], markersize=14, label="mean")
+    axis.plot([], [], "D", color=_COLOURS[2], markersize=5, label="mean in the paper")
+    axis.legend(loc="lower right", fontsize="small")
+    axis.set(title=title, ylabel="expected completion rate")
+    axis.grid(axis="y", alpha=0.3)
+    return figure
+
+
+def save(figure: Figure, path: Path) -> None:
+    """Write a figure, whole or not at all; the suffix chooses the format."""
+    try:
+        handle, name = tempfile.mkstemp(suffix=path.suffix, dir=path.parent)
+    except OSError as error:
+        raise InputError(f"cannot be written ({error.strerror})", file=path) from None
+    os.close(handle)
+    part = Path(name)
+    try:
+        figure.savefig(part, dpi=150)
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
