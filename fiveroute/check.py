@@ -7,12 +7,16 @@ that leaves fiveroute has passed it.
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 
-__all__ = ["Violation", "check"]
+__all__ = ["CLAIM_TOLERANCE", "Violation", "check", "check_claims"]
+
+CLAIM_TOLERANCE = 1e-6
+"""Relative error that a claimed objective or duration may have."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,14 +26,15 @@ class Violation:
     Parameters
     ----------
     kind
-        ``fleet_size``, ``unknown_node``, ``visited_twice`` or ``over_budget``.
+        ``fleet_size``, ``unknown_node``, ``visited_twice`` or ``over_budget``; and of
+        what a plan says of itself, ``objective`` or ``duration``.
     auv
         AUV concerned, counted from 0; None where the whole plan is concerned.
     node
         Vertex concerned; None where a whole route is.
     amount
-        Size of the fault: AUVs too many or missing, visits too many, or seconds over
-        the budget.
+        Size of the fault: AUVs too many or missing, visits too many, seconds over the
+        budget, or how much more is claimed than is true.
     """
 
     kind: str
@@ -65,3 +70,38 @@ def check(problem: TeamOrienteering, plan: Plan) -> list[Violation]:
             excess = duration - float(problem.budgets[auv])
             violations.append(Violation("over_budget", auv, None, excess))
     return violations
+
+
+def check_claims(
+    problem: TeamOrienteering, plan: Plan, objective: float, durations: Sequence[float]
+) -> list[Violation]:
+    """Judge what a feasible plan says of itself.
+
+    Parameters
+    ----------
+    problem
+        The problem.
+    plan
+        A plan in which `check` found nothing.
+    objective
+        The data that it claims to collect.
+    durations
+        The time that it claims for every route, in seconds.
+
+    Returns
+    -------
+    list of Violation
+        Claims that differ from the truth by more than one part in a million.
+    """
+    claims: list[tuple[str, int | None, float, float]] = [
+        ("objective", None, objective, plan.objective(problem))
+    ]
+    claims += [
+        ("duration", auv, claimed, true)
+        for auv, (claimed, true) in enumerate(zip(durations, plan.durations(problem), strict=True))
+    ]
+    return [
+        Violation(kind, auv, None, claimed - true)
+        for kind, auv, claimed, true in claims
+        if abs(claimed - true) > CLAIM_TOLERANCE * max(1.0, abs(true))
+    ]

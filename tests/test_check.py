@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fiveroute.check import Violation, check
+from fiveroute.check import Violation, check, check_claims
 from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 
@@ -79,3 +79,10 @@ def test_feasible_exactly_when_every_rule_holds(routes: list[list[int]]) -> None
         )
     )
     assert (not check(LINE, Plan.of(routes))) == rules
+
+
+def test_true_claims_stand_and_false_ones_fall() -> None:
+    plan = Plan.of([[1, 3], []])
+    assert check_claims(LINE, plan, 7.0, [6.0, 4.0]) == []
+    assert check_claims(LINE, plan, 9.0, [6.0, 4.0]) == [Violation("objective", None, None, 2.0)]
+    assert check_claims(LINE, plan, 7.0, [6.0, 3.5]) == [Violation("duration", 1, None, -0.5)]

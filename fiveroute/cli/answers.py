@@ -14,7 +14,9 @@ from fiveroute.problem import TeamOrienteering
 from fiveroute.result import GiantRouteResult, Result, Status
 
 if TYPE_CHECKING:
+    from fiveroute.check import Violation
     from fiveroute.experiments.gap_table import GapRow, GapSummary
+    from fiveroute.formats.plan_file import PlanFile
     from fiveroute.mission import MissionPlan
 
 __all__ = [
@@ -28,7 +30,9 @@ __all__ = [
     "print_json",
     "print_routes",
     "print_table",
+    "print_verdict",
     "solve_answer",
+    "verify_answer",
 ]
 
 _CODES = {Status.OPTIMAL: 0, Status.FEASIBLE: 0, Status.INFEASIBLE: 1, Status.NO_SOLUTION: 3}
@@ -99,6 +103,33 @@ def giant_route_answer(instance: Instance, result: GiantRouteResult, seed: int) 
     }
 
 
+def verify_answer(
+    instance: Instance,
+    problem: TeamOrienteering,
+    filed: PlanFile,
+    violations: Sequence[Violation],
+) -> dict[str, Any]:
+    """The keys of `verify`: AUVs are counted from 0, nodes go by their ids."""
+    routes = [[v for v in route if v <= problem.n] for route in filed.plan.routes]
+    known = Plan.of(routes)
+    return {
+        "instance": instance.name,
+        "feasible": not violations,
+        "objective": known.objective(problem),
+        "completion_rate": _completion(known.objective(problem), problem.total_profit),
+        "durations": list(known.durations(problem)),
+        "violations": [
+            {
+                "kind": violation.kind,
+                "auv": violation.auv,
+                "node": None if violation.node is None else filed.name(violation.node),
+                "amount": violation.amount,
+            }
+            for violation in violations
+        ],
+    }
+
+
 def _start_id(instance: Instance) -> str:
     """Formats without ids number the start as 1; a native file does not name it."""
     numbered = all(node.id == str(i) for i, node in enumerate(instance.nodes, start=2))
@@ -161,6 +192,19 @@ def print_gaps(rows: Sequence[GapRow], summary: GapSummary) -> None:
         f"{summary.reached} at the best known value; gap mean {gap_text(summary.mean_gap)}, "
         f"median {gap_text(summary.median_gap)}, worst {gap_text(summary.worst_gap)}"
     )
+
+
+def print_verdict(answer: Mapping[str, Any]) -> None:
+    """Print the judge's verdict for people."""
+    verdict = "feasible" if answer["feasible"] else "NOT feasible"
+    rate = 100 * answer["completion_rate"]
+    click.echo(f"{answer['instance']}: {verdict}, {rate:.1f} % of all data collected")
+    for violation in answer["violations"]:
+        auv, node = violation["auv"], violation["node"]
+        places = [f"AUV {auv + 1}"] if auv is not None else []
+        places += [f"node {node}"] if node is not None else []
+        what = ", ".join([violation["kind"].replace("_", " "), *places])
+        click.echo(f"  {what}: {violation['amount']:.6g}")
 
 
 def _number(value: float | None) -> str:

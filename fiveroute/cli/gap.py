@@ -48,7 +48,8 @@ def command(
     """Plan every one of INSTANCES, bound it, and print how far the plans are from optimal."""
     from dataclasses import asdict
 
-    from fiveroute.cli import answers, files
+    from fiveroute.cli import answers
+    from fiveroute.cli.files import read_mission, require_output
     from fiveroute.cli.running import run
     from fiveroute.experiments.gap_table import (
         GapRow,
@@ -57,11 +58,12 @@ def command(
         read_reference,
         summarise,
     )
+    from fiveroute.formats.files import write_text_atomically
     from fiveroute.limits import Limits, ProgressCallback
 
-    files.require_writable(output, force)
+    require_output(output, force)
     known = read_reference(reference) if reference else {}
-    missions = [files.read(path) for path in instances]
+    missions = [read_mission(path) for path in instances]
 
     def rows(limits: Limits, progress: ProgressCallback | None) -> list[GapRow]:
         done: list[GapRow] = []
@@ -83,7 +85,7 @@ def command(
     table = outcome.value
     summary = summarise(table)
     if output is not None:
-        files.write_text(output, gap_table_csv(table), force)
+        write_text_atomically(output, gap_table_csv(table), force)
     if as_json:
         answers.print_json({"rows": [asdict(row) for row in table], "summary": asdict(summary)})
     else:

@@ -29,12 +29,13 @@ def command(
     as_json: bool,
 ) -> None:
     """Shortest route from start to destination through all nodes of INSTANCE."""
-    from fiveroute.cli import answers, files
+    from fiveroute.cli import answers
+    from fiveroute.cli.files import read_mission
     from fiveroute.cli.running import run
     from fiveroute.limits import Limits
     from fiveroute.tiers.preplanning import find_giant_route
 
-    mission = files.read(instance, straight_lines)
+    mission = read_mission(instance, straight_lines=straight_lines)
     problem = mission.problem(mission.fleet_size or 1)
     outcome = run(
         lambda limits, progress: find_giant_route(

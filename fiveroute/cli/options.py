@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import click
 
@@ -18,6 +19,9 @@ __all__ = [
     "straight_lines",
     "time_limit",
 ]
+
+
+Command = TypeVar("Command", bound=Callable[..., Any])
 
 
 class _Seconds(click.ParamType[float]):
@@ -64,7 +68,7 @@ json_output = click.option(
 force = click.option("--force", is_flag=True, help="Overwrite existing files.")
 
 
-def output(help_text: str, *, required: bool = False) -> Any:
+def output(help_text: str, *, required: bool = False) -> Callable[[Command], Command]:
     """``--output`` with its own words."""
     return click.option(
         "--output", type=click.Path(path_type=Path), required=required, help=help_text

@@ -71,13 +71,15 @@ def command(
     as_json: bool,
 ) -> None:
     """Fleet size, routes for every AUV, completion rate and optimality gap for INSTANCE."""
-    from fiveroute.cli import answers, files
+    from fiveroute.cli import answers
+    from fiveroute.cli.files import read_mission, require_output
     from fiveroute.cli.running import run
+    from fiveroute.formats.plan_file import PlanFile, write_plan
     from fiveroute.limits import Limits
     from fiveroute.mission import plan_mission
 
-    files.require_writable(output, force)
-    mission = files.read(instance, straight_lines)
+    require_output(output, force)
+    mission = read_mission(instance, straight_lines=straight_lines)
     outcome = run(
         lambda limits, progress: plan_mission(
             mission,
@@ -96,7 +98,7 @@ def command(
     planned = outcome.value
     result = planned.result
     if output is not None and result.plan is not None:
-        files.write_plan(output, mission, planned.problem, result, force)
+        write_plan(PlanFile.of(mission, planned.problem, result), output, force)
     answer = answers.plan_answer(planned)
     if as_json:
         answers.print_json(answer)

@@ -47,13 +47,15 @@ def command(
     as_json: bool,
 ) -> None:
     """Best plan for INSTANCE with a proof, or the best bound in the time given."""
-    from fiveroute.cli import answers, files
+    from fiveroute.cli import answers
+    from fiveroute.cli.files import read_mission, require_output
     from fiveroute.cli.running import run
+    from fiveroute.formats.plan_file import PlanFile, write_plan
     from fiveroute.limits import Limits
     from fiveroute.models import solve
 
-    files.require_writable(output, force)
-    mission = files.read(instance, straight_lines)
+    require_output(output, force)
+    mission = read_mission(instance, straight_lines=straight_lines)
     problem = mission.problem(fleet_size)
     outcome = run(
         lambda limits, progress: solve(problem, method, limits, progress=progress),
@@ -61,7 +63,7 @@ def command(
     )
     result = outcome.value
     if output is not None and result.plan is not None:
-        files.write_plan(output, mission, problem, result, force)
+        write_plan(PlanFile.of(mission, problem, result), output, force)
     answer = answers.solve_answer(mission, problem, result)
     if as_json:
         answers.print_json(answer)

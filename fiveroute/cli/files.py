@@ -1,0 +1,39 @@
+"""Files as commands meet them: refused before the work begins, written after it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from fiveroute.formats import read_instance
+from fiveroute.formats.files import require_writable
+from fiveroute.instance import Instance
+
+__all__ = ["read_mission", "require_output"]
+
+
+def require_output(path: Path | None, force: bool) -> None:
+    """Refuse an output that could not be written, before any time is spent."""
+    if path is not None:
+        require_writable(path, force)
+
+
+def read_mission(path: Path, *, straight_lines: bool = True) -> Instance:
+    """Read an instance, and say so where its ocean is not planned in.
+
+    Parameters
+    ----------
+    path
+        The instance file.
+    straight_lines
+        Whether the user asked to ignore the ocean.
+    """
+    mission = read_instance(path)
+    if not straight_lines and mission.has_ocean:
+        click.echo(
+            "fiveroute: legs are straight lines in still water; the ocean of this instance "
+            "is not planned in yet (--straight-lines says so and silences this)",
+            err=True,
+        )
+    return mission

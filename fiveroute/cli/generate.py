@@ -1,0 +1,48 @@
+"""``fiveroute generate``: scenarios from a seed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from fiveroute.cli import options
+
+__all__ = ["command"]
+
+
+@click.command("generate")
+@click.argument("layout", type=click.Choice(["paper", "uniform", "clustered", "ring"]))
+@click.option(
+    "--nodes",
+    type=click.IntRange(0, 100_000),
+    default=60,
+    show_default=True,
+    help="Number of sensor nodes.",
+)
+@options.seed
+@options.fleet_size
+@click.option(
+    "--currents",
+    type=click.Choice(["effective", "printed", "none"]),
+    default="effective",
+    show_default=True,
+    help="Vortices of the layout 'paper': as printed they are too weak to matter.",
+)
+@options.output("File to write.", required=True)
+@options.force
+def command(
+    layout: str,
+    nodes: int,
+    seed: int,
+    fleet_size: int | None,
+    currents: str,
+    output: Path,
+    force: bool,
+) -> None:
+    """Write a scenario: LAYOUT is that of the paper's Section IV-A, or another one."""
+    from fiveroute.formats import write_instance
+    from fiveroute.generate import generate
+
+    scenario = generate(layout, nodes=nodes, seed=seed, fleet_size=fleet_size, currents=currents)
+    write_instance(scenario, output, force=force)
