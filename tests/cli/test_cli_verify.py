@@ -1,0 +1,60 @@
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+
+@pytest.fixture
+def plan(call: Any, tiny: Path) -> Path:
+    path = tiny.with_name("plan.json")
+    assert call("solve", tiny, "--output", path).code == 0
+    return path
+
+
+def tampered(plan: Path, **changes: object) -> Path:
+    document = json.loads(plan.read_text(encoding="utf-8")) | changes
+    path = plan.with_name("tampered.json")
+    path.write_text(json.dumps(document), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("changes", "kind"),
+    [
+        ({"routes": [["a", "b", "far"]]}, "over_budget"),
+        ({"routes": [["a", "a"]]}, "visited_twice"),
+        ({"routes": [["a", "stranger"]]}, "unknown_node"),
+        ({"routes": [["a"], ["b"]], "durations": [30.0, 30.0]}, "fleet_size"),
+        ({"objective": 0.8}, "objective"),
+        ({"durations": [31.0]}, "duration"),
+    ],
+)
+def test_every_violation_is_named(
+    call: Any, tiny: Path, plan: Path, changes: dict[str, object], kind: str
+) -> None:
+    answer = call("verify", tiny, tampered(plan, **changes), "--json")
+    assert answer.code == 1
+    assert answer.doc["feasible"] is False
+    assert answer.doc["violations"][0]["kind"] == kind
+
+
+def test_a_stranger_goes_by_its_id(call: Any, tiny: Path, plan: Path) -> None:
+    answer = call("verify", tiny, tampered(plan, routes=[["stranger"]]), "--json")
+    assert answer.doc["violations"][0]["node"] == "stranger"
+
+
+def test_people_read_the_verdict(call: Any, tiny: Path, plan: Path) -> None:
+    answer = call("verify", tiny, tampered(plan, routes=[["a", "b", "far"]]))
+    assert answer.code == 1
+    assert "NOT feasible" in answer.out
+    assert "over budget, AUV 1" in answer.out
+
+
+def test_a_plan_for_another_instance_is_refused(
+    call: Any, plan: Path, edited: Callable[..., Path]
+) -> None:
+    answer = call("verify", edited(fleet__endurance=61.0), plan)
+    assert answer.code == 2
+    assert "instance" in answer.err
