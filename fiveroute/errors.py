@@ -57,7 +57,8 @@ class InputError(FiverouteError):
             where.append(self.field)
         shown = [] if self.value is None else [f"{_shorten(self.value)}:"]
         head = [f"{', '.join(where)}:"] if where else []
-        return " ".join([*head, *shown, self.rule]).replace("\n", " ")
+        sentence = " ".join([*head, *shown, self.rule])
+        return "".join(sign if sign.isprintable() else " " for sign in sentence)
 
 
 class MissingExtraError(FiverouteError):

@@ -7,7 +7,6 @@ solvers never see an instance: they see the `TeamOrienteering` problem it turns 
 
 from __future__ import annotations
 
-from collections import Counter
 from typing import Annotated
 
 import numpy as np
@@ -15,10 +14,11 @@ from numpy.typing import NDArray
 from pydantic import (
     AfterValidator,
     ConfigDict,
+    Discriminator,
     Field,
     NonNegativeFloat,
     PositiveFloat,
-    PositiveInt,
+    Tag,
 )
 from pydantic.dataclasses import dataclass
 
@@ -27,6 +27,7 @@ from fiveroute.metric import Metric, distances
 from fiveroute.problem import TeamOrienteering
 
 __all__ = [
+    "MAX_FLEET",
     "Circle",
     "Currents",
     "Fleet",
@@ -40,6 +41,9 @@ __all__ = [
     "Uniform",
     "Vortex",
 ]
+
+MAX_FLEET = 10_000
+"""Most AUVs in a fleet: a slip of the keyboard must not fill the memory."""
 
 _STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
 
@@ -75,6 +79,17 @@ class Node:
     service_time: NonNegativeFloat | None = None
 
 
+def _endurance_kind(value: object) -> str:
+    return "each" if isinstance(value, (list, tuple)) else "all"
+
+
+_Endurance = Annotated[
+    Annotated[PositiveFloat, Tag("all")]
+    | Annotated[tuple[PositiveFloat, ...], Field(min_length=1, max_length=MAX_FLEET), Tag("each")],
+    Discriminator(_endurance_kind),
+]
+
+
 @dataclass(frozen=True, slots=True, config=_STRICT)
 class Fleet:
     """The AUVs.
@@ -89,9 +104,9 @@ class Fleet:
         T_max in seconds, one number for all AUVs or one for each; None is unlimited.
     """
 
-    size: PositiveInt | None
+    size: Annotated[int, Field(ge=1, le=MAX_FLEET)] | None
     speed: PositiveFloat
-    endurance: PositiveFloat | tuple[PositiveFloat, ...] | None
+    endurance: _Endurance | None
 
 
 @dataclass(frozen=True, slots=True, config=_STRICT)
@@ -126,7 +141,7 @@ class Currents:
 
     vortices: tuple[Vortex, ...] = ()
     uniform: Uniform | None = None
-    file: str | None = None
+    file: Annotated[str, Field(min_length=1)] | None = None
 
 
 @dataclass(frozen=True, slots=True, config=_STRICT)
@@ -145,12 +160,23 @@ class Polygon:
     polygon: Annotated[tuple[tuple[float, float], ...], Field(min_length=3)]
 
 
+def _obstacle_kind(value: object) -> str:
+    is_polygon = isinstance(value, Polygon) or (isinstance(value, dict) and "polygon" in value)
+    return "polygon" if is_polygon else "circle"
+
+
+_Obstacle = Annotated[
+    Annotated[Circle, Tag("circle")] | Annotated[Polygon, Tag("polygon")],
+    Discriminator(_obstacle_kind),
+]
+
+
 @dataclass(frozen=True, slots=True, config=_STRICT)
 class Ocean:
     """Currents, obstacles and land."""
 
     currents: Currents = Currents()
-    obstacles: tuple[Circle | Polygon, ...] = ()
+    obstacles: tuple[_Obstacle, ...] = ()
     land: tuple[Polygon, ...] = ()
 
 
@@ -180,10 +206,14 @@ class Uncertainty:
 
 
 def _unique_ids(nodes: tuple[Node, ...]) -> tuple[Node, ...]:
-    for name, count in Counter(node.id for node in nodes).items():
-        if count > 1:
-            where = [i for i, node in enumerate(nodes) if node.id == name]
-            raise ValueError(f"id {name!r} stands at nodes {where}; every id must be unique")
+    first: dict[str, int] = {}
+    for i, node in enumerate(nodes):
+        if first.setdefault(node.id, i) != i:
+            raise InputError(
+                f"is the id of nodes[{first[node.id]}] too; give every node an id of its own",
+                field=f"nodes[{i}].id",
+                value=node.id,
+            )
     return nodes
 
 
@@ -243,12 +273,18 @@ class Instance:
                 value=self.metric,
             )
         if self.travel_times is not None:
-            size = len(self.nodes) + 2
-            rows = [len(self.travel_times), *map(len, self.travel_times)]
-            if any(row != size for row in rows):
+            self._check_shape(self.travel_times)
+
+    def _check_shape(self, times: tuple[tuple[float, ...], ...]) -> None:
+        size = len(self.nodes) + 2
+        lengths = {"travel_times": len(times)}
+        lengths |= {f"travel_times[{i}]": len(row) for i, row in enumerate(times)}
+        for field, length in lengths.items():
+            if length != size:
                 raise InputError(
-                    f"must be {size} rows of {size} times: start, nodes, destination",
-                    field="travel_times",
+                    f"must have {size} entries: start, {len(self.nodes)} nodes, destination",
+                    field=field,
+                    value=length,
                 )
 
     @property
@@ -299,9 +335,9 @@ class Instance:
         stated = self.fleet_size
         size = stated if fleet_size is None else fleet_size
         endurance = self.fleet.endurance
-        if size is None or size < 1:
+        if size is None or not 1 <= size <= MAX_FLEET:
             raise InputError(
-                "the fleet needs a size of at least 1; set fleet.size or pass --fleet-size",
+                f"the fleet needs a size from 1 to {MAX_FLEET}; set it or pass --fleet-size",
                 field="fleet.size",
                 value=size,
             )

@@ -60,14 +60,17 @@ def _ceil_2d(points: Matrix) -> Matrix:
 
 
 def _att(points: Matrix) -> Matrix:
-    """Pseudo-Euclidean: divided by sqrt(10) and rounded up where rounding went down."""
-    exact = _euclidean(points) / np.sqrt(10.0)
-    rounded = np.floor(exact + 0.5)
-    return np.where(rounded < exact, rounded + 1.0, rounded)
+    """Pseudo-Euclidean: divided by sqrt(10) and rounded up."""
+    from scipy.spatial.distance import cdist
+
+    return np.ceil(np.sqrt(cdist(points, points, "sqeuclidean") / 10.0))
 
 
 def _geo(points: Matrix) -> Matrix:
-    """Great-circle kilometres on TSPLIB's sphere, with its truncated value of pi."""
+    """Great-circle kilometres on TSPLIB's sphere, with its truncated value of pi.
+
+    Every two places are at least a kilometre apart, but a place is not from itself.
+    """
     pi, radius = 3.141592, 6378.388
     degrees = np.trunc(points)
     latitude, longitude = (pi * (degrees + 5.0 * (points - degrees) / 3.0) / 180.0).T
@@ -75,9 +78,8 @@ def _geo(points: Matrix) -> Matrix:
     q2 = np.cos(latitude[:, None] - latitude[None, :])
     q3 = np.cos(latitude[:, None] + latitude[None, :])
     cosine = np.clip(0.5 * ((1.0 + q1) * q2 - (1.0 - q1) * q3), -1.0, 1.0)
-    matrix: Matrix = np.trunc(radius * np.arccos(cosine) + 1.0)
-    np.fill_diagonal(matrix, 0.0)
-    return matrix
+    one_place = (q1 == 1.0) & (q2 == 1.0)
+    return np.where(one_place, 0.0, np.trunc(radius * np.arccos(cosine) + 1.0))
 
 
 def _explicit(points: Matrix) -> Matrix:

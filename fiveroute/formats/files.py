@@ -1,0 +1,196 @@
+"""Text in from a file and out to a file, as every format needs it.
+
+A file is read whole, in UTF-8, up to `MAX_BYTES`; one that is too large, binary or cut off
+is refused before anything is built from it. A file is written whole or not at all: the
+text goes into a temporary file in the same folder, which then takes the place of the old
+one in a single step.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import os
+import secrets
+from collections.abc import Iterator
+from pathlib import Path
+
+from fiveroute.errors import InputError
+
+__all__ = [
+    "MAX_BYTES",
+    "integer",
+    "non_negative",
+    "number",
+    "numbered_lines",
+    "positive",
+    "read_text",
+    "require_writable",
+    "write_text_atomically",
+]
+
+MAX_BYTES = 32 * 2**20
+"""Largest file that is read; 100,000 nodes take about 10 MB."""
+
+_REMEDIES: tuple[tuple[type[OSError], str], ...] = (
+    (FileNotFoundError, "does not exist; check the name"),
+    (IsADirectoryError, "is a folder; name a file in it"),
+    (PermissionError, "is out of bounds: permission denied; change its permissions"),
+)
+
+
+def read_text(path: Path) -> str:
+    """Read a text file.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is larger than `MAX_BYTES`, empty or not UTF-8 text.
+    """
+    try:
+        with path.open("rb") as stream:
+            data = stream.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as error:
+        raise InputError(_reason(error), file=path) from None
+    if len(data) > MAX_BYTES:
+        raise InputError(f"is larger than {MAX_BYTES // 2**20} MB; split it", file=path)
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise InputError(
+            "is no UTF-8 text; save the file as UTF-8",
+            value=data[error.start : error.start + 1],
+            file=path,
+            line=data.count(b"\n", 0, error.start) + 1,
+        ) from None
+    if "\0" in text:
+        raise InputError("is a binary file; name a text file", file=path)
+    if not text.strip():
+        raise InputError("is empty; name a file that holds something", file=path)
+    return text
+
+
+def numbered_lines(text: str) -> Iterator[tuple[int, str]]:
+    """Lines that hold something, stripped, with their numbers counted from 1."""
+    for line, content in enumerate(io.StringIO(text, newline=None), start=1):
+        if stripped := content.strip():
+            yield line, stripped
+
+
+def number(token: str, field: str, line: int) -> float:
+    """Turn one word of a text file into a finite number."""
+    try:
+        value = math.nan if "_" in token else float(token)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise InputError(
+            "must be a finite number; correct the line", value=token, field=field, line=line
+        )
+    return value
+
+
+def positive(token: str, field: str, line: int) -> float:
+    """Turn one word of a text file into a number above 0."""
+    value = number(token, field, line)
+    if value <= 0.0:
+        raise InputError(
+            "must be greater than 0; correct the line", value=value, field=field, line=line
+        )
+    return value
+
+
+def non_negative(token: str, field: str, line: int) -> float:
+    """Turn one word of a text file into a number of at least 0."""
+    value = number(token, field, line)
+    if value < 0.0:
+        raise InputError(
+            "must not be negative; correct the line", value=value, field=field, line=line
+        )
+    return value
+
+
+def integer(token: str, field: str, line: int, least: int = 1) -> int:
+    """Turn one word of a text file into a whole number of at least `least`."""
+    try:
+        value = least - 1 if "_" in token else int(token)
+    except ValueError:
+        value = least - 1
+    if value < least:
+        raise InputError(
+            f"must be a whole number, at least {least}; correct the line",
+            value=token,
+            field=field,
+            line=line,
+        )
+    return value
+
+
+def require_writable(path: Path, force: bool = False) -> None:
+    """Refuse, before the work begins, an output that could not be written after it.
+
+    Raises
+    ------
+    InputError
+        If the folder is missing, the path is a folder, or the file exists and `force`
+        does not allow to overwrite it.
+    """
+    try:
+        if path.is_dir():
+            raise InputError("is a folder; name a file in it", file=path)
+        if not path.parent.is_dir():
+            raise InputError(f"folder {str(path.parent)!r} does not exist; make it", file=path)
+        if path.is_file() and not force:
+            raise InputError("exists; pass --force to overwrite it", file=path)
+    except (OSError, ValueError) as error:
+        raise InputError(_reason(error), file=path) from None
+
+
+def write_text_atomically(path: Path, text: str, force: bool = False) -> None:
+    """Write a file whole or not at all.
+
+    Parameters
+    ----------
+    path
+        The file; a symbolic link is followed, and a device or pipe is written directly.
+    text
+        Its content, written in UTF-8 with plain line feeds.
+    force
+        Overwrite an existing file.
+
+    Raises
+    ------
+    InputError
+        If `require_writable` refuses, or the system does not let us write.
+    """
+    require_writable(path, force)
+    try:
+        if path.exists() and not path.is_file():
+            path.write_text(text, encoding="utf-8", newline="\n")
+        else:
+            _replace(path.resolve(), text)
+    except OSError as error:
+        raise InputError(_reason(error, "written"), file=path) from None
+
+
+def _replace(path: Path, text: str) -> None:
+    temporary = path.with_name(f".{path.name[:100]}.{secrets.token_hex(6)}.tmp")
+    try:
+        with temporary.open("x", encoding="utf-8", newline="\n") as stream:
+            stream.write(text)
+            stream.flush()
+            os.fsync(stream.fileno())
+        if path.exists():
+            temporary.chmod(path.stat().st_mode)
+        temporary.replace(path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise
+
+
+def _reason(error: Exception, done: str = "read") -> str:
+    for kind, remedy in _REMEDIES:
+        if isinstance(error, kind):
+            return remedy
+    told = error.strerror if isinstance(error, OSError) else str(error)
+    return f"cannot be {done} ({told}); check the name and the disk"

@@ -1,0 +1,205 @@
+"""The native plan file: JSON, ``"format": "fiveroute-plan/1"``.
+
+A plan file stands alone: it holds the whole instance document, so that the plan can be
+viewed, exported and judged without any other file, and the hash of that document, so that
+it is never taken for a plan of another instance.
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import ConfigDict, Field, NonNegativeFloat
+from pydantic.dataclasses import dataclass
+
+import fiveroute
+from fiveroute.errors import InputError
+from fiveroute.formats.files import read_text, write_text_atomically
+from fiveroute.formats.json_document import layout, read_document
+from fiveroute.formats.native import (
+    InstanceDocument,
+    instance_document,
+    instance_hash,
+    relocated,
+)
+from fiveroute.instance import Instance
+from fiveroute.plan import Plan
+from fiveroute.problem import TeamOrienteering
+from fiveroute.result import Result, Status
+
+__all__ = ["TAG", "PlanFile", "read_plan", "write_plan"]
+
+TAG = "fiveroute-plan/1"
+
+_STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+
+
+@dataclass(frozen=True, slots=True, config=_STRICT)
+class PlanFile:
+    """A plan as a file holds it.
+
+    Parameters
+    ----------
+    instance
+        The instance that the plan is for.
+    routes
+        Ids of the nodes on every route, in the order of the visits.
+    durations
+        Travel and service time of every route in seconds.
+    objective
+        Collected data.
+    status
+        How the method ended.
+    bound
+        Proven upper bound on the collected data; None where none was computed.
+    method, seed, version
+        How the plan was found: method, its seed (None without one), fiveroute's version.
+    """
+
+    instance: Instance
+    routes: tuple[tuple[str, ...], ...]
+    durations: tuple[NonNegativeFloat, ...]
+    objective: NonNegativeFloat
+    status: Annotated[Status, Field(strict=False)]
+    bound: float | None
+    method: str
+    seed: int | None
+    version: str
+
+    def __post_init__(self) -> None:
+        if len(self.durations) != len(self.routes):
+            raise InputError(
+                f"must have {len(self.routes)} entries, one for every route",
+                field="durations",
+                value=len(self.durations),
+            )
+
+    @classmethod
+    def of(cls, instance: Instance, problem: TeamOrienteering, result: Result) -> PlanFile:
+        """A method's plan for an instance.
+
+        Parameters
+        ----------
+        instance
+            The instance.
+        problem
+            The problem that was solved; its leg times give the durations.
+        result
+            A result that has a plan.
+        """
+        if result.plan is None or result.objective is None:
+            raise InputError("there is no plan to write", field="status", value=str(result.status))
+        return cls(
+            instance=instance,
+            routes=tuple(
+                tuple(instance.nodes[node - 1].id for node in route) for route in result.plan.routes
+            ),
+            durations=result.plan.durations(problem),
+            objective=result.objective,
+            status=result.status,
+            bound=result.bound,
+            method=result.method,
+            seed=result.seed,
+            version=fiveroute.__version__,
+        )
+
+    @property
+    def plan(self) -> Plan:
+        """The routes as vertex numbers; see `vertex_names`."""
+        vertices = {name: vertex for vertex, name in enumerate(self.vertex_names)}
+        return Plan.of([vertices[name] for name in route] for route in self.routes)
+
+    @property
+    def vertex_names(self) -> tuple[str, ...]:
+        """Id of every vertex of `plan`.
+
+        Start and destination have none. An id on a route that is no node's gets a vertex
+        beyond the destination: the judge reports it as an unknown node.
+        """
+        nodes = [node.id for node in self.instance.nodes]
+        known = {"", *nodes}
+        on_routes = dict.fromkeys(name for route in self.routes for name in route)
+        return ("", *nodes, "", *(name for name in on_routes if name not in known))
+
+    def require_instance(self, instance: Instance) -> None:
+        """Refuse another instance than the plan's own; the error names both."""
+        own, other = instance_hash(self.instance), instance_hash(instance)
+        if own != other:
+            raise InputError(
+                f"is a plan for {self.instance.name!r} (hash {own[:12]}), not for "
+                f"{instance.name!r} (hash {other[:12]}); use the instance it was made for",
+                field="instance_hash",
+            )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=_STRICT)
+class _PlanDocument(PlanFile):
+    format: Literal["fiveroute-plan/1"]
+    instance: InstanceDocument
+    instance_hash: str
+
+
+def read_plan(path: Path, instance: Instance | None = None) -> PlanFile:
+    """Read a plan file.
+
+    Parameters
+    ----------
+    path
+        The file.
+    instance
+        Instance that the plan is to be used with; None takes the one in the file.
+
+    Raises
+    ------
+    InputError
+        If the file is no valid plan, does not fit its own hash, or is a plan for another
+        instance.
+    """
+    try:
+        document = read_document(read_text(path), _PlanDocument, TAG)
+        own = {field.name: getattr(document, field.name) for field in fields(PlanFile)}
+        plan = PlanFile(**(own | {"instance": document.instance.instance}))
+        if instance_hash(plan.instance) != document.instance_hash:
+            raise InputError(
+                "does not fit the instance in this file; somebody changed it, plan it anew",
+                field="instance_hash",
+                value=document.instance_hash,
+            )
+        if instance is not None:
+            plan.require_instance(instance)
+    except InputError as error:
+        raise error.at(path) from None
+    return plan
+
+
+def write_plan(plan: PlanFile, path: Path, force: bool = False, source: Path | None = None) -> None:
+    """Write a plan file, whole or not at all.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    path
+        The file.
+    force
+        Overwrite an existing file.
+    source
+        File that the instance comes from; names of files in it are relative to it.
+    """
+    instance = plan.instance if source is None else relocated(plan.instance, source, path)
+    document = {
+        "format": TAG,
+        "instance": instance_document(instance),
+        "instance_hash": instance_hash(instance),
+        "routes": plan.routes,
+        "durations": plan.durations,
+        "objective": plan.objective,
+        "status": plan.status.value,
+        "bound": plan.bound,
+        "method": plan.method,
+        "seed": plan.seed,
+        "version": plan.version,
+    }
+    write_text_atomically(path, layout(document) + "\n", force)
