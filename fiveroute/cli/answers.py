@@ -122,7 +122,7 @@ def verify_answer(
             {
                 "kind": violation.kind,
                 "auv": violation.auv,
-                "node": None if violation.node is None else filed.name(violation.node),
+                "node": None if violation.node is None else filed.vertex_names[violation.node],
                 "amount": violation.amount,
             }
             for violation in violations

@@ -35,4 +35,4 @@ def command(
     from fiveroute.formats import read_instance, write_instance
 
     mission = read_instance(file, source_format)
-    write_instance(mission, output, target_format, force=force)
+    write_instance(mission, output, target_format, force, source=file)

@@ -8,7 +8,7 @@ import click
 
 from fiveroute.formats import read_instance
 from fiveroute.formats.files import require_writable
-from fiveroute.instance import Instance
+from fiveroute.instance import Instance, Ocean
 
 __all__ = ["read_mission", "require_output"]
 
@@ -30,7 +30,7 @@ def read_mission(path: Path, *, straight_lines: bool = True) -> Instance:
         Whether the user asked to ignore the ocean.
     """
     mission = read_instance(path)
-    if not straight_lines and mission.has_ocean:
+    if not straight_lines and mission.ocean != Ocean():
         click.echo(
             "fiveroute: legs are straight lines in still water; the ocean of this instance "
             "is not planned in yet (--straight-lines says so and silences this)",

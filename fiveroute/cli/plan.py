@@ -98,7 +98,7 @@ def command(
     planned = outcome.value
     result = planned.result
     if output is not None and result.plan is not None:
-        write_plan(PlanFile.of(mission, planned.problem, result), output, force)
+        write_plan(PlanFile.of(mission, planned.problem, result), output, force, source=instance)
     answer = answers.plan_answer(planned)
     if as_json:
         answers.print_json(answer)

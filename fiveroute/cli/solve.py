@@ -63,7 +63,7 @@ def command(
     )
     result = outcome.value
     if output is not None and result.plan is not None:
-        write_plan(PlanFile.of(mission, problem, result), output, force)
+        write_plan(PlanFile.of(mission, problem, result), output, force, source=instance)
     answer = answers.solve_answer(mission, problem, result)
     if as_json:
         answers.print_json(answer)
