@@ -1,0 +1,1 @@
+"""Parts of the giant-route heuristic: tours, their local search and their crossover."""
