@@ -1,0 +1,113 @@
+"""How S-GGARP makes new individuals: initial routes, crossover and mutations.
+
+None of them heeds the time limit; `rebirth` does that afterwards. That is their use: a
+route that is far too long, shed node by node, ends elsewhere than one grown from nothing.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fiveroute.heuristics.randomness import RandomState, below, uniform
+from fiveroute.heuristics.route_kernels import Stops, cheapest_place, remove, shift_in
+from fiveroute.kernels import kernel
+
+__all__ = ["crossover", "mutate", "random_route"]
+
+
+@kernel
+def random_route(legs: NDArray[np.float64], stops: Stops, state: RandomState) -> int:
+    """Fill a route with a random share of all nodes, each put at its cheapest place.
+
+    The nodes come in random order. Returns the length of the route.
+    """
+    size = len(legs)
+    order = np.arange(1, size - 1)
+    for i in range(size - 3, 0, -1):
+        j = below(state, i + 1)
+        order[i], order[j] = order[j], order[i]
+    stops[0], stops[1] = 0, size - 1
+    length = 2
+    for node in order[: below(state, size - 1)]:
+        length = shift_in(stops, length, cheapest_place(legs, stops, length, node)[1], node)
+    return length
+
+
+@kernel
+def crossover(
+    first: Stops,
+    first_length: int,
+    second: Stops,
+    second_length: int,
+    child: Stops,
+    state: RandomState,
+) -> int:
+    """Fill a child with the first parent up to a common node, and the second from there on.
+
+    The common node is drawn at random; without one the parents are cut at random places.
+    Nodes of the second parent that the child has already are left out. Returns the
+    length of the child.
+    """
+    position = np.full(len(child), -1)
+    for at in range(second_length - 1):
+        position[second[at]] = at
+    cut = below(state, first_length - 1)
+    for step in range(first_length - 1):
+        at = (cut + step) % (first_length - 1)
+        if position[first[at]] > 0:
+            cut = at
+            break
+    follow = position[first[cut]]
+    if follow <= 0:
+        follow = below(state, second_length - 1)
+    length = cut + 1
+    child[:length] = first[:length]
+    taken = np.zeros(len(child), np.bool_)
+    for at in range(length):
+        taken[child[at]] = True
+    for at in range(follow + 1, second_length):
+        if not taken[second[at]]:
+            child[length] = second[at]
+            length += 1
+    return length
+
+
+@kernel
+def mutate(legs: NDArray[np.float64], stops: Stops, length: int, state: RandomState) -> int:
+    """Leave out a string of nodes, or visit a group of idle ones; returns the new length."""
+    if length > 2 and uniform(state) < 0.5:
+        count = 1 + below(state, (length - 1) // 2)
+        return remove(stops, length, 1 + below(state, length - 1 - count), count)
+    return _visit_group(legs, stops, length, 1 + below(state, 4), state)
+
+
+@kernel
+def _visit_group(
+    legs: NDArray[np.float64], stops: Stops, length: int, count: int, state: RandomState
+) -> int:
+    """Insert a random idle node and the idle nodes nearest to it, in time or not."""
+    size = len(legs)
+    idle = np.ones(size, np.bool_)
+    for at in range(length):
+        idle[stops[at]] = False
+    centre = node = _random_idle(idle, size - length, state)
+    for _ in range(min(count, size - length)):
+        length = shift_in(stops, length, cheapest_place(legs, stops, length, node)[1], node)
+        idle[node] = False
+        nearest = np.inf
+        for other in range(1, size - 1):
+            if idle[other] and legs[centre, other] < nearest:
+                node, nearest = other, legs[centre, other]
+    return length
+
+
+@kernel
+def _random_idle(idle: NDArray[np.bool_], count: int, state: RandomState) -> int:
+    left = below(state, count) if count > 0 else 0
+    for node in range(len(idle)):
+        if idle[node]:
+            if left == 0:
+                return node
+            left -= 1
+    return 0
