@@ -2,21 +2,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import click
 
+from fiveroute.errors import InputError
 from fiveroute.formats import read_instance
 from fiveroute.formats.files import require_writable
 from fiveroute.instance import Instance, Ocean
 
-__all__ = ["read_mission", "require_output"]
+__all__ = ["read_mission", "require_folder", "require_output"]
 
 
 def require_output(path: Path | None, force: bool) -> None:
     """Refuse an output that could not be written, before any time is spent."""
     if path is not None:
         require_writable(path, force)
+
+
+def require_folder(folder: Path | None, names: Iterable[str], force: bool) -> None:
+    """Make a folder for several outputs, and refuse those that could not be written."""
+    if folder is None:
+        return
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"cannot be a folder ({error.strerror})", file=folder) from None
+    for name in names:
+        require_writable(folder / name, force)
 
 
 def read_mission(path: Path, *, straight_lines: bool = True) -> Instance:

@@ -1,0 +1,71 @@
+"""``fiveroute experiment``: the paper's Section IV."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from fiveroute.cli import options
+
+__all__ = ["command"]
+
+
+@click.group("experiment")
+def command() -> None:
+    """Repeat the paper's experiments."""
+
+
+@command.command("preplanning")
+@click.option(
+    "--scenarios",
+    type=click.IntRange(min=1),
+    default=20,
+    show_default=True,
+    help="Number of scenarios.",
+)
+@options.seed
+@options.output("Folder for report, tables and pictures; made if it is missing.")
+@options.force
+@options.json_output
+@click.pass_context
+def preplanning(
+    ctx: click.Context,
+    scenarios: int,
+    seed: int,
+    output: Path | None,
+    force: bool,
+    as_json: bool,
+) -> None:
+    """Section IV-B: the giant-route method against Voronoi, k-means and AHC."""
+    from fiveroute.cli import answers
+    from fiveroute.cli.files import require_folder
+    from fiveroute.cli.running import run
+    from fiveroute.experiments.preplanning import Scenario, run_scenarios
+    from fiveroute.experiments.preplanning_report import FILES, report, summary, write_report
+    from fiveroute.limits import Limits, Progress, ProgressCallback
+
+    require_folder(output, FILES, force)
+
+    def work(limits: Limits, progress: ProgressCallback | None) -> list[Scenario]:
+        clock = limits.start()
+
+        def tell(what: str) -> None:
+            if progress is not None:
+                progress(Progress(clock.seconds, message=what))
+
+        done = []
+        for scenario in run_scenarios(scenarios, seed, tell):
+            done.append(scenario)
+            if clock.interrupted:
+                break
+        return done
+
+    outcome = run(work, Limits())
+    if output is not None:
+        write_report(outcome.value, output, force)
+    if as_json:
+        answers.print_json(summary(outcome.value))
+    else:
+        click.echo(report(outcome.value), nl=False)
+    ctx.exit(130 if outcome.interrupted else 0)
