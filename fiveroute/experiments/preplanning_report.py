@@ -179,9 +179,7 @@ def _boxes(scenarios: Sequence[Scenario]) -> dict[str, Statistics]:
     return {name: statistics_of(s.completion[name] for s in scenarios) for name in METHODS}
 
 
-def _by_name(
-    names: Sequence[str], published: Mapping[str, Published]
-) -> dict[str, Published | None]:
+def _by_name(names: Sequence[str], published: Mapping[str, Published]) -> dict[str, Published]:
     return dict(zip(names, published.values(), strict=True))
 
 
