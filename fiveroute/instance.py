@@ -288,6 +288,11 @@ class Instance:
                 )
 
     @property
+    def has_ocean(self) -> bool:
+        """Whether there is anything but still, open water."""
+        return self.ocean != Ocean()
+
+    @property
     def points(self) -> NDArray[np.float64]:
         """Positions of start, nodes and destination in metres, shape (n + 2, 2)."""
         stops: list[Point | Node] = [self.start, *self.nodes, self.destination]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fiveroute.errors import InputError
-from fiveroute.instance import Instance, Ocean, Uncertainty
+from fiveroute.instance import Instance, Uncertainty
 
 __all__ = ["require_closed", "require_plain", "single_endurance", "spelled"]
 
@@ -18,7 +18,7 @@ def require_plain(instance: Instance, format_name: str) -> None:
     """
     for field, what, held in (
         ("service", "service times", instance.service_times.any()),
-        ("ocean", "currents, obstacles and land", instance.ocean != Ocean()),
+        ("ocean", "currents, obstacles and land", instance.has_ocean),
         ("uncertainty", "uncertainty", instance.uncertainty != Uncertainty()),
         ("fleet.speed", "speed other than 1", instance.fleet.speed != 1.0),
     ):
