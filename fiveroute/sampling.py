@@ -16,12 +16,15 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fiveroute.errors import InputError
-from fiveroute.instance import Uncertainty
+
+if TYPE_CHECKING:
+    from fiveroute.instance import Uncertainty
 
 __all__ = ["RouteStatistic", "SampledLegs", "route_times", "sample_legs"]
 

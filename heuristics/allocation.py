@@ -124,7 +124,7 @@ def sub_routes(problem: TeamOrienteering, sets: Sequence[Route]) -> tuple[Route,
 
 
 def _ordered(problem: TeamOrienteering, nodes: Route) -> Route:
-    """Insert node after node at its cheapest place, then shorten by 2-opt and or-opt."""
+    """Insert node after node at its cheapest place, then shorten routes of a usual length."""
     from fiveroute.heuristics.route_kernels import cheapest_place, shift_in, shorten
 
     vertices = np.array([0, *nodes, problem.destination])
@@ -133,7 +133,8 @@ def _ordered(problem: TeamOrienteering, nodes: Route) -> Route:
     stops[0] = 0
     for node in range(1, len(nodes) + 1):
         shift_in(stops, node + 1, cheapest_place(legs, stops, node + 1, node)[1], node)
-    shorten(legs, stops, len(stops))
+    if len(nodes) <= 1000:
+        shorten(legs, stops, len(stops))
     return tuple(vertices[stops[1:-1]].tolist())
 
 

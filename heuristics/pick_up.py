@@ -14,6 +14,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from fiveroute.limits import Clock, Limits
 from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
 
@@ -60,7 +61,10 @@ def trim(
 
 
 def pick_up(
-    problem: TeamOrienteering, routes: Sequence[Route], duration: RouteDuration | None = None
+    problem: TeamOrienteering,
+    routes: Sequence[Route],
+    duration: RouteDuration | None = None,
+    clock: Clock | None = None,
 ) -> tuple[Route, ...]:
     """Insert idle nodes, the greatest psi of the whole fleet first, until none fits.
 
@@ -72,16 +76,19 @@ def pick_up(
         A route in time for every AUV.
     duration
         How to measure a route, besides the planned duration, which must fit in any case.
+    clock
+        Ends the pick-up early; no limit without one.
     """
     planned = problem.duration
     duration = duration or planned
+    clock = clock or Limits().start()
     fleet = list(routes)
     visited = {node for route in fleet for node in route}
     idle = np.array([v for v in range(1, problem.n + 1) if v not in visited], dtype=np.int64)
     offers = [_offers(problem, auv, route, idle) for auv, route in enumerate(fleet)]
     psi = np.array([ratios for ratios, _ in offers])
     place = np.array([places for _, places in offers])
-    while psi.size and psi.max() > 0.0:
+    while psi.size and psi.max() > 0.0 and not clock.expired:
         auv, chosen = divmod(int(psi.argmax()), len(idle))
         at = place[auv, chosen]
         longer = (*fleet[auv][:at], int(idle[chosen]), *fleet[auv][at:])

@@ -98,10 +98,12 @@ def optimise_route(
         The best route found; `route` itself where no better one is in time.
     """
     clock = clock or Limits().start()
+    if clock.expired:
+        return tuple(route)
     nodes = np.array([0, *sorted({*route, *idle}), problem.destination])
     case = _case(problem, auv, nodes, sampled)
     state = random_state(rng)
-    population = _founders(case, np.searchsorted(nodes, route), genetics, state)
+    population = _founders(case, np.searchsorted(nodes, route), genetics, state, clock)
     leader, stale = _leader(population), 0
     for _ in range(genetics.generations):
         if stale >= genetics.patience or clock.expired:
@@ -148,7 +150,7 @@ class _Population(NamedTuple):
 
 
 def _founders(
-    case: Case, route: NDArray[np.int64], genetics: Genetics, state: RandomState
+    case: Case, route: NDArray[np.int64], genetics: Genetics, state: RandomState, clock: Clock
 ) -> _Population:
     """The present route as it is and reborn, and random routes reborn."""
     size, end = genetics.population, len(case.profit) - 1
@@ -162,6 +164,8 @@ def _founders(
     length = rebirth(case, stops, len(route) + 2, 0.0, state)
     _admit(case, population, stops, length)
     for _ in range(2, size):
+        if clock.expired:
+            break
         length = rebirth(case, stops, random_route(case.legs, stops, state), genetics.noise, state)
         _admit(case, population, stops, length)
     return population

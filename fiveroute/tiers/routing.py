@@ -37,7 +37,7 @@ class RouteSearch:
     Parameters
     ----------
     genetics
-        Parameters of T.
+        Parameters of T; None leaves it out, where routes are too long for it.
     offered
         Largest number of idle nodes that T considers for one AUV: those of greatest psi.
     literal
@@ -46,7 +46,7 @@ class RouteSearch:
         Sampled leg times; routes must then be in time by their statistic as well.
     """
 
-    genetics: Genetics = field(default_factory=Genetics)
+    genetics: Genetics | None = field(default_factory=Genetics)
     offered: int = 100
     literal: bool = False
     sampled: SampledLegs | None = None
@@ -118,11 +118,11 @@ def plan_routes(
         return None
     settled: dict[int, tuple[Route, Route]] = {}
     improved = True
-    while improved and not clock.expired:  # line 7
+    while improved:  # line 7
         before = routes
         for m in range(problem.fleet_size):  # line 8
             idle = _idle(problem, routes, m, search, sub_routes[m])
-            if settled.get(m) == (routes[m], idle):
+            if search.genetics is None or settled.get(m) == (routes[m], idle):
                 continue
             better = optimise_route(
                 problem,
@@ -138,8 +138,8 @@ def plan_routes(
             if _improves(problem, better, routes[m]):
                 routes = (*routes[:m], better, *routes[m + 1 :])
             settled[m] = routes[m], idle
-        routes = pick_up(problem, routes, duration)  # lines 9 to 13
-        improved = routes != before
+        routes = pick_up(problem, routes, duration, clock)  # lines 9 to 13
+        improved = routes != before and not clock.expired
     return Routing(tuple(sub_routes), trimmed, Plan(routes))
 
 

@@ -1,0 +1,252 @@
+"""A whole mission planned: the tiers of the paper put together.
+
+This is where to start reading. `plan_mission` goes through the paper's steps one by one,
+and every step is a function that can be called alone: the giant route and the estimate of
+the fleet (tier 1), the sub-routes and Algorithm 1 (tiers 1 and 2). What the paper does not
+have comes last: a search over the whole fleet, and a bound that says how far the plan is
+from optimal.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from fiveroute.errors import InputError
+from fiveroute.heuristics.fleet_search import fleet_search
+from fiveroute.heuristics.shortest_routes import is_proved_infeasible
+from fiveroute.instance import Instance
+from fiveroute.limits import Clock, Limits, Progress, ProgressCallback
+from fiveroute.plan import Plan, Route
+from fiveroute.problem import TeamOrienteering
+from fiveroute.result import Result, Status, is_closed
+from fiveroute.sampling import RouteStatistic, SampledLegs, sample_legs
+from fiveroute.tiers.effort import effort_for
+from fiveroute.tiers.preplanning import Allocation, allocations, preplan
+from fiveroute.tiers.routing import Routing, best_routing
+
+__all__ = ["Bounding", "MissionPlan", "Search", "plan_mission"]
+
+Search = Literal["fleet", "paper"]
+"""``paper``: Algorithm 1; ``fleet``: Algorithm 1, then a search over the whole fleet."""
+
+Bounding = Literal["none", "quick", "exact"]
+"""Where the upper bound comes from; ``exact`` may improve the plan as well."""
+
+_END_OF_GIANT_ROUTE = {"fleet": 0.1, "paper": 0.3}
+_END_OF_ROUTES = {"fleet": 0.3, "paper": 1.0}
+_END_OF_PLAN = {"none": 1.0, "quick": 0.8, "exact": 0.5}
+"""Shares of a time limit: of the whole for the plan, and of that for its first two steps."""
+
+_MOST_SAMPLED_LEGS = 200_000_000
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MissionPlan:
+    """A plan and how it came about.
+
+    Parameters
+    ----------
+    instance
+        The mission.
+    problem
+        The problem it was turned into, with the fleet that is sent.
+    result
+        The plan, its data, and what is known about the optimum.
+    giant_route
+        The best giant route R_0.
+    giant_route_duration
+        Its duration T_0 in seconds.
+    fleet_estimate
+        M by (17) before rounding; None where the endurance is too short for an estimate.
+    routing
+        The stages of Algorithm 1; None where no AUV can make it to the destination in time.
+    allocation, search
+        As they were asked for.
+    """
+
+    instance: Instance
+    problem: TeamOrienteering
+    result: Result
+    giant_route: Route
+    giant_route_duration: float
+    fleet_estimate: float | None
+    routing: Routing | None
+    allocation: Allocation
+    search: Search
+
+    @property
+    def segments(self) -> tuple[Route, ...]:
+        """The sub-routes, one per AUV, that Algorithm 1 made its routes of."""
+        return () if self.routing is None else self.routing.sub_routes
+
+
+def plan_mission(
+    instance: Instance,
+    *,
+    fleet_size: int | None = None,
+    allocation: Allocation = "giant-route",
+    search: Search = "fleet",
+    bound: Bounding = "none",
+    literal: bool = False,
+    samples: int = 0,
+    quantile: float | None = None,
+    limits: Limits | None = None,
+    seed: int = 0,
+    progress: ProgressCallback | None = None,
+) -> MissionPlan:
+    """Plan a mission: how many AUVs, and the route of each.
+
+    Parameters
+    ----------
+    instance
+        The mission; its currents are not considered.
+    fleet_size
+        Number of AUVs; None takes that of the instance, or else estimates it.
+    allocation
+        How the nodes are first shared out.
+    search
+        How far to search.
+    bound
+        Where the upper bound comes from.
+    literal
+        Take Algorithm 1 to the letter: one start, and every AUV keeps to its own nodes.
+    samples
+        Number of sampled leg times to plan with (S-GGARP); 0 plans with the planned ones
+        (GGA). Only for the search ``paper``.
+    quantile
+        Quantile of the sampled durations that must be in time; None takes their mean.
+    limits
+        When to stop. Without a time limit every search ends by itself.
+    seed
+        Seed of the random numbers; without a time limit it determines the plan.
+    progress
+        Called as the work goes on.
+
+    Raises
+    ------
+    InputError
+        If the options contradict each other, or no fleet size is stated and none can be
+        estimated.
+    """
+    if samples and search != "paper":
+        raise InputError("samples are for the search 'paper' only", field="search", value=search)
+    if quantile is not None and not samples:
+        raise InputError("a quantile needs samples; set their number as well", field="quantile")
+    steps = _Steps((limits or Limits()).start(), _END_OF_PLAN[bound], progress)
+    for_tier1, for_tier2, for_fleet = np.random.default_rng(seed).spawn(3)
+
+    # Tier 1: a giant route, and from it the size of the fleet.
+    until = steps.begin("giant route", _END_OF_GIANT_ROUTE[search])
+    tier1 = preplan(instance, fleet_size, until, rng=for_tier1)
+    problem, routing = tier1.problem, None
+    if is_proved_infeasible(problem):
+        result = Result.infeasible(method=search, seconds=steps.clock.seconds)
+    else:
+        # Tiers 1 and 2: sub-routes, and Algorithm 1 from several of them.
+        until = steps.begin("routes", _END_OF_ROUTES[search])
+        effort = effort_for(problem.n, problem.fleet_size)
+        starts = allocations(
+            problem,
+            allocation,
+            1 if literal else effort.starts,
+            giant_routes=tier1.giant_routes,
+            points=instance.points,
+            rng=for_tier1,
+        )
+        sampled = _sampled(instance, samples, quantile, for_tier2)
+        how = replace(effort.search, literal=literal, sampled=sampled)
+        routing = best_routing(problem, starts, how, rng=for_tier2, clock=until.start())
+        plan = None if routing is None else routing.plan
+
+        # Beyond the paper: the whole fleet at once, and how far it may be from optimal.
+        if search == "fleet" and plan is not None:
+            until = steps.begin("fleet search", 1.0)
+            plan = fleet_search(
+                problem, until, rng=for_fleet, warm_start=plan, progress=steps.relay
+            )
+        result = _with_bound(problem, plan, bound, steps)
+    return MissionPlan(
+        instance,
+        problem,
+        replace(result, method=search, seed=seed),
+        tier1.giant_routes[0],
+        problem.duration(tier1.giant_routes[0]),
+        None if tier1.estimate is None else tier1.estimate.value,
+        routing,
+        allocation,
+        search,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Steps:
+    """Shares the time limit out among the steps, and reports each of them.
+
+    Parameters
+    ----------
+    clock
+        The clock of the whole run.
+    share
+        Share of the time limit that is for the plan; the rest is for the bound.
+    progress
+        Called as the work goes on.
+    """
+
+    clock: Clock
+    share: float
+    progress: ProgressCallback | None
+
+    def begin(self, name: str, end: float) -> Limits:
+        """Limits for a step that must be over at the share `end` of the time for the plan."""
+        self.relay(Progress(0.0, message=name))
+        limits = self.clock.limits
+        return limits.within(limits.time * self.share * end - self.clock.seconds)
+
+    def relay(self, progress: Progress) -> None:
+        """Pass a step's progress on, timed by the clock of the whole run."""
+        if self.progress is not None:
+            self.progress(replace(progress, seconds=self.clock.seconds))
+
+
+def _sampled(
+    instance: Instance, samples: int, quantile: float | None, rng: np.random.Generator
+) -> SampledLegs | None:
+    """Draw the leg times for S-GGARP; None for planned times."""
+    if not samples:
+        return None
+    travel = instance.travel
+    if samples * travel.size > _MOST_SAMPLED_LEGS:
+        raise InputError(
+            f"so many samples of {travel.size} legs do not fit into memory; take fewer samples",
+            field="samples",
+            value=samples,
+        )
+    lengths_km = travel * (instance.fleet.speed / 1000.0)
+    legs = sample_legs(travel, lengths_km, instance.uncertainty, samples, rng)
+    return SampledLegs(legs, RouteStatistic(quantile))
+
+
+def _with_bound(
+    problem: TeamOrienteering, plan: Plan | None, bound: Bounding, steps: _Steps
+) -> Result:
+    """Judge the plan, and bound what any plan can collect; an exact method may beat the plan."""
+    clock = steps.clock
+    if bound == "none":
+        return Result.judged(problem, plan, method=bound, seconds=clock.seconds)
+    from fiveroute.models.bounds import quick_bound
+
+    steps.begin("bound", 1.0)
+    best = quick_bound(problem, clock.rest()).value
+    if bound == "exact" and not (plan and is_closed(plan.objective(problem), best)):
+        from fiveroute.models import solve
+
+        exact = solve(problem, "auto", clock.rest(), warm_start=plan, progress=steps.relay)
+        if exact.status is Status.INFEASIBLE:
+            return exact
+        best = best if exact.bound is None else min(best, exact.bound)
+        if plan is None or (exact.objective or 0.0) > plan.objective(problem):
+            plan = exact.plan
+    return Result.judged(problem, plan, method=bound, seconds=clock.seconds, bound=best)
