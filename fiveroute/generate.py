@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
 from fiveroute.instance import (
+    MAX_FLEET,
     Currents,
     Fleet,
     Instance,
@@ -112,12 +113,13 @@ def paper_scenario(
     """
     if currents not in CURRENTS:
         raise InputError(f"must be one of {', '.join(CURRENTS)}", field="currents", value=currents)
+    _require_sizes(nodes, seed, fleet_size)
     where, data, field = _streams(seed, 3)
     distributions = CURRENTS[currents]
     vortices = () if distributions is None else _vortices(field, *distributions)
     return Instance(
         name=f"scenario-{seed:02d}",
-        nodes=_nodes(_uniform(_count(nodes), where), data),
+        nodes=_nodes(_uniform(nodes, where), data),
         start=START,
         destination=DESTINATION,
         fleet=Fleet(fleet_size, 1.0, 18_000.0),
@@ -159,11 +161,12 @@ def scenario(
     """
     if layout not in LAYOUTS:
         raise InputError(f"must be one of {', '.join(LAYOUTS)}", field="layout", value=layout)
+    _require_sizes(nodes, seed, fleet_size)
     where, data = _streams(seed, 2)
     size = max(1, round(0.5 * math.sqrt(nodes))) if fleet_size is None else fleet_size
     instance = Instance(
         name=f"{layout}-{nodes}-{seed}",
-        nodes=_nodes(LAYOUTS[layout](_count(nodes), where), data),
+        nodes=_nodes(LAYOUTS[layout](nodes, where), data),
         start=CENTRE if closed else START,
         destination=CENTRE if closed else DESTINATION,
         fleet=Fleet(size, 1.0, None),
@@ -206,18 +209,21 @@ LAYOUTS: dict[str, Callable[[int, np.random.Generator], Positions]] = {
 """How nodes can lie: ``layout(nodes, rng)`` gives positions in metres, shape (nodes, 2)."""
 
 
+def _require_sizes(nodes: int, seed: int, fleet_size: int | None) -> None:
+    """Refuse sizes that no scenario can have."""
+    for field, value, least, most in (
+        ("nodes", nodes, 0, math.inf),
+        ("seed", seed, 0, math.inf),
+        ("fleet_size", fleet_size, 1, MAX_FLEET),
+    ):
+        if value is not None and not least <= value <= most:
+            raise InputError(f"must be from {least} to {most}", field=field, value=value)
+
+
 def _streams(seed: int, count: int) -> list[np.random.Generator]:
     """Independent streams of random numbers."""
-    if seed < 0:
-        raise InputError("must not be negative", field="seed", value=seed)
     children = np.random.SeedSequence(seed).spawn(count)
     return [np.random.Generator(np.random.PCG64(child)) for child in children]
-
-
-def _count(nodes: int) -> int:
-    if nodes < 0:
-        raise InputError("must not be negative", field="nodes", value=nodes)
-    return nodes
 
 
 def _nodes(positions: Positions, rng: np.random.Generator) -> tuple[Node, ...]:
