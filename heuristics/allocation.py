@@ -113,8 +113,9 @@ def hierarchical(
     if len(nodes) < 2:
         return _sets(np.zeros(len(nodes), np.int64), fleet_size)
     from scipy.cluster import hierarchy
+    from scipy.spatial.distance import pdist
 
-    tree = hierarchy.linkage(nodes, method=linkage)
+    tree = hierarchy.linkage(pdist(nodes), method=linkage)
     return _sets(hierarchy.fcluster(tree, fleet_size, criterion="maxclust") - 1, fleet_size)
 
 

@@ -52,6 +52,8 @@ def rebirth(case: Case, stops: Stops, length: int, noise: float, state: RandomSt
     state
         Random numbers.
     """
+    if not in_time(case, stops, length):
+        shorten(case.legs, stops, length)
     length = _shed(case, stops, length, noise, state)
     length = _grow(case, stops, length, noise, state)
     for _ in range(4):

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.heuristics.randomness import RandomState, below, uniform
+from fiveroute.heuristics.randomness import RandomState, below
 from fiveroute.heuristics.route_kernels import Stops, cheapest_place, remove, shift_in
 from fiveroute.kernels import kernel
 
@@ -75,11 +75,34 @@ def crossover(
 
 @kernel
 def mutate(legs: NDArray[np.float64], stops: Stops, length: int, state: RandomState) -> int:
-    """Leave out a string of nodes, or visit a group of idle ones; returns the new length."""
-    if length > 2 and uniform(state) < 0.5:
+    """Exchange two strings, leave one out, or visit a group of idle nodes.
+
+    Returns the new length.
+    """
+    kind = below(state, 5)
+    if kind == 0:
+        _exchange_strings(stops, length, state)
+    elif kind <= 2 and length > 2:
         count = 1 + below(state, (length - 1) // 2)
-        return remove(stops, length, 1 + below(state, length - 1 - count), count)
-    return _visit_group(legs, stops, length, 1 + below(state, 4), state)
+        length = remove(stops, length, 1 + below(state, length - 1 - count), count)
+    else:
+        length = _visit_group(legs, stops, length, 1 + below(state, 4), state)
+    return length
+
+
+@kernel
+def _exchange_strings(stops: Stops, length: int, state: RandomState) -> None:
+    """Exchange two neighbouring strings of nodes without reversing them."""
+    if length < 4:
+        return
+    first = 1 + below(state, length - 3)
+    last = first + 2 + below(state, length - 2 - first)
+    middle = first + 1 + below(state, last - first - 1)
+    string = stops[first:middle].copy()
+    count = last - middle
+    for i in range(count):
+        stops[first + i] = stops[middle + i]
+    stops[first + count : last] = string
 
 
 @kernel
