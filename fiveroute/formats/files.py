@@ -169,7 +169,7 @@ def write_text_atomically(path: Path, text: str, force: bool = False) -> None:
             path.write_text(text, encoding="utf-8", newline="\n")
         else:
             _replace(path.resolve(), text)
-    except OSError as error:
+    except (OSError, ValueError) as error:
         raise InputError(_reason(error, "written"), file=path) from None
 
 

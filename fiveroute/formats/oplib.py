@@ -43,7 +43,7 @@ def read(text: str, name: str) -> Instance:
     name
         Name of the instance if the file states none.
     """
-    file = parse(text, (*KEYS, "COST_LIMIT"), (*SECTIONS, "NODE_SCORE_SECTION", "DEPOT_SECTION"))
+    file = parse(text, _KEYS, _SECTIONS)
     file.choice("TYPE", ("OP",), default="OP")
     limit = file.entry("COST_LIMIT")
     endurance = positive(limit.value, "COST_LIMIT", limit.line)
