@@ -303,8 +303,9 @@ class Instance:
         """Leg times t_ij in still water in seconds, equation (1), shape (n + 2, n + 2)."""
         if self.travel_times is not None:
             return np.array(self.travel_times, dtype=np.float64)
-        matrix = distances(self.metric, self.points)
-        return np.divide(matrix, self.fleet.speed, out=matrix)
+        with np.errstate(over="ignore", invalid="ignore"):  # TeamOrienteering refuses these
+            matrix = distances(self.metric, self.points)
+            return np.divide(matrix, self.fleet.speed, out=matrix)
 
     @property
     def service_times(self) -> NDArray[np.float64]:
@@ -354,7 +355,8 @@ class Instance:
             )
         travel, service = self.travel, self.service_times
         if endurance is None:
-            endurance = float(travel.max(axis=1).sum() + service.sum()) or 1.0
+            with np.errstate(over="ignore"):
+                endurance = float(travel.max(axis=1).sum() + service.sum()) or 1.0
         budgets = endurance if isinstance(endurance, tuple) else (endurance,) * size
         data = _at_nodes([node.data for node in self.nodes])
         return TeamOrienteering(travel, service, data, budgets)

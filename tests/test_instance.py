@@ -138,6 +138,14 @@ def test_impossible_values_are_refused(build: Any) -> None:
         build()
 
 
+@pytest.mark.parametrize("metric", ["euclidean", "EUC_2D", "CEIL_2D", "GEO", "ATT"])
+@pytest.mark.parametrize("endurance", [None, 5.0])
+def test_places_beyond_all_numbers_are_refused(metric: Any, endurance: float | None) -> None:
+    far = Node("far", 1e308, -1e308, 1.0)
+    with pytest.raises(InputError, match="must be finite"):
+        instance(nodes=(far,), metric=metric, fleet=Fleet(1, 0.1, endurance)).problem()
+
+
 def test_ocean_is_told_from_still_open_water() -> None:
     assert not instance().has_ocean
     for ocean in (

@@ -12,9 +12,9 @@ from fiveroute.formats import (
     instance_hash,
     native,
     read_instance,
-    relocated,
     write_instance,
 )
+from fiveroute.formats.native import relocated
 from fiveroute.generate import paper_scenario
 from fiveroute.instance import Currents, Instance, Node, Ocean
 
@@ -34,11 +34,11 @@ def read(**changes: Any) -> Instance:
 
 
 def node(**changes: Any) -> dict[str, Any]:
-    return SMALLEST["nodes"][0] | changes
+    return {**SMALLEST["nodes"][0], **changes}
 
 
 def fleet(**changes: Any) -> dict[str, Any]:
-    return SMALLEST["fleet"] | changes
+    return {**SMALLEST["fleet"], **changes}
 
 
 def test_defaults() -> None:
@@ -231,6 +231,6 @@ def test_instance_keeps_its_currents_when_it_moves(tmp_path: Path) -> None:
     new.parent.mkdir(parents=True)
     write_instance(with_currents("sea/a.nc"), old)
     write_instance(read_instance(old), new, source=old)
-    file = currents_file(read_instance(new), new)
-    assert file is not None
-    assert file.resolve() == (old.parent / "sea" / "a.nc").resolve()
+    named = currents_file(read_instance(new), new)
+    assert named is not None
+    assert named.resolve() == (old.parent / "sea" / "a.nc").resolve()
