@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from fiveroute.errors import InputError
 from fiveroute.formats import instance_hash
-from fiveroute.generate import LAYOUTS, generate, paper_scenario, scenario
+from fiveroute.generate import LAYOUTS, SIDE, _along_curve, generate, paper_scenario, scenario
 from fiveroute.instance import Instance, Point
 
 
@@ -26,8 +26,8 @@ def test_paper_scenario_is_that_of_section_iv() -> None:
 
 
 def test_distributions_are_those_of_the_paper() -> None:
-    """Means and standard deviations over 200 scenarios, within four standard errors."""
-    scenarios = [paper_scenario(seed) for seed in range(200)]
+    """Means and standard deviations over 100 scenarios, within four standard errors."""
+    scenarios = [paper_scenario(seed) for seed in range(100)]
     points = np.array([(n.x, n.y) for s in scenarios for n in s.nodes])
     data = np.array([n.data for s in scenarios for n in s.nodes])
     vortices = [v for s in scenarios for v in s.ocean.currents.vortices]
@@ -94,6 +94,12 @@ def test_a_larger_fleet_needs_less_endurance(layout: str) -> None:
     endurance = [scenario(layout, 100, 1, size).problem().budgets[0] for size in (1, 2, 4, 8)]
     assert endurance == sorted(endurance, reverse=True)
     assert endurance[0] > 2.0 * endurance[3]
+
+
+def test_curve_goes_from_cell_to_neighbouring_cell() -> None:
+    cells = (np.indices((16, 16)).reshape(2, -1).T + 0.5) * SIDE / 16
+    steps = np.diff(cells[_along_curve(cells)], axis=0)
+    np.testing.assert_allclose(np.abs(steps).sum(axis=1), SIDE / 16)
 
 
 def test_seeds_differ() -> None:

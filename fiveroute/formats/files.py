@@ -30,7 +30,7 @@ __all__ = [
 ]
 
 MAX_BYTES = 32 * 2**20
-"""Largest file that is read; 100,000 nodes take about 10 MB."""
+"""Largest file that is read; 100,000 nodes take about 7 MB."""
 
 _REMEDIES: tuple[tuple[type[OSError], str], ...] = (
     (FileNotFoundError, "does not exist; check the name"),

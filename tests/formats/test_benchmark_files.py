@@ -11,7 +11,7 @@ from fiveroute.instance import Instance
 
 DATA = Path(os.environ.get("FIVEROUTE_DATA", "")) / "benchmarks"
 NEEDED = pytest.mark.skipif(
-    "FIVEROUTE_DATA" not in os.environ or not DATA.is_dir(),
+    not os.environ.get("FIVEROUTE_DATA") or not DATA.is_dir(),
     reason="set FIVEROUTE_DATA to the folder above benchmarks/ to read public files",
 )
 
