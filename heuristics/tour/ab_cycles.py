@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.heuristics.tour.exchange import Tour, beside
+from fiveroute.heuristics.tour.exchange import Cycles, Tour
 from fiveroute.heuristics.tour.random_numbers import random_below
 from fiveroute.kernels import kernel
 
@@ -21,9 +21,7 @@ __all__ = ["ab_cycles"]
 
 
 @kernel
-def ab_cycles(
-    a: Tour, b: Tour, state: NDArray[np.uint64]
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def ab_cycles(a: Tour, b: Tour, state: NDArray[np.uint64]) -> Cycles:
     """Split the difference of two tours into AB-cycles at random.
 
     Parameters
@@ -35,33 +33,34 @@ def ab_cycles(
 
     Returns
     -------
-    tuple
-        Vertices of all cycles one after the other, and the index of the first vertex of each
-        cycle, with the total number as a last entry; fresh arrays. Edges (0, 1), (2, 3), ...
-        of a cycle belong to A; (1, 2), (3, 4), ... and the closing one belong to B.
+    Cycles
+        Fresh arrays; the removed edges belong to A and the added ones to B.
     """
     size = len(a.order)
-    rest, degree = _difference(a, b)
-    open_vertices = np.flatnonzero(degree[0])
-    unused = len(open_vertices)
-    vertices = np.empty(2 * degree[0].sum() // 2, dtype=np.int64)
-    starts = np.zeros(len(vertices) // 4 + 1, dtype=np.int64)
-    cycles, filled = 0, 0
-    path = np.empty(len(vertices) + 1, dtype=np.int64)
-    seen = np.full((2, size), -1)  # index on the path by parity
-    while unused > 0:
-        i = random_below(state, unused)
-        root = open_vertices[i]
+    rest = np.empty((2, size, 2), dtype=np.int64)  # other ends of the edges left, by kind
+    degree = np.zeros((2, size), dtype=np.int64)  # and how many
+    _collect(a, b, rest[0], degree[0])
+    _collect(b, a, rest[1], degree[1])
+    roots = np.flatnonzero(degree[0])
+    left = len(roots)
+    edges = degree[0].sum()
+    vertices = np.empty(2 * edges, dtype=np.int64)
+    starts = np.zeros(edges // 2 + 1, dtype=np.int64)
+    found = 0
+    path = np.empty(2 * edges + 1, dtype=np.int64)
+    seen = np.full((2, size), -1)  # index on the path, apart for even and odd ones
+    while left > 0:
+        i = random_below(state, left)
+        root = roots[i]
         if degree[0, root] == 0:
-            unused -= 1
-            open_vertices[i] = open_vertices[unused]
+            left -= 1
+            roots[i] = roots[left]
             continue
         path[0] = root
         seen[0, root] = 0
         last = 0
         while last > 0 or degree[0, root] > 0:
-            kind = last & 1
-            tail = path[last]
+            kind, tail = last & 1, path[last]
             head = rest[kind, tail, random_below(state, degree[kind, tail])]
             _remove(rest, degree, kind, tail, head)
             _remove(rest, degree, kind, head, tail)
@@ -71,35 +70,32 @@ def ab_cycles(
             if first < 0:
                 seen[last & 1, head] = last
                 continue
-            shift = first & 1  # begin with an edge of A
-            for j in range(first + shift, last + shift):
-                vertices[filled] = path[j]
-                filled += 1
+            at = starts[found]
+            from_a = first + (first & 1)  # begin with an edge of A
+            for j in range(last - first):
+                vertices[at + j] = path[from_a + j]
             for j in range(first + 1, last):
                 seen[j & 1, path[j]] = -1
+            found += 1
+            starts[found] = at + last - first
             last = first
-            cycles += 1
-            starts[cycles] = filled
         seen[0, root] = -1
-    return vertices, starts[: cycles + 1]
+    return Cycles(vertices, starts[: found + 1])
 
 
 @kernel
-def _difference(a: Tour, b: Tour) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Edges of one tour only: their other ends by kind and vertex, and how many there are."""
-    size = len(a.order)
-    rest = np.empty((2, size, 2), dtype=np.int64)
-    degree = np.zeros((2, size), dtype=np.int64)
-    for v in range(size):
-        for kind in range(2):
-            own, other = (a, b) if kind == 0 else (b, a)
-            before, after = beside(other, v, 0), beside(other, v, 1)
-            for side in range(2):
-                w = beside(own, v, side)
-                if w != before and w != after:
-                    rest[kind, v, degree[kind, v]] = w
-                    degree[kind, v] += 1
-    return rest, degree
+def _collect(own: Tour, other: Tour, rest: NDArray[np.int64], degree: NDArray[np.int64]) -> None:
+    """Collect the edges of one tour that another one lacks."""
+    last = len(own.order) - 1
+    u = own.order[last]
+    for p in range(last + 1):
+        v = own.order[p]
+        apart = abs(other.position[u] - other.position[v])
+        if apart != 1 and apart != last:
+            rest[u, degree[u]], rest[v, degree[v]] = v, u
+            degree[u] += 1
+            degree[v] += 1
+        u = v
 
 
 @kernel

@@ -2,10 +2,10 @@
 
 A tour is an array `order` of its vertices and the inverse array `position`. An exchange
 removes k edges of the tour and adds k others. Cut r, for r = 0 to k - 1 in ascending order,
-is the removed edge between positions cut[r] and cut[r] + 1; what lies between two cuts is a
-*segment*. Every cut has two *ports*: 2 r is the end of the segment before it and 2 r + 1 the
-start of the segment after it. The added edges join ports pairwise: join[p] is the port that
-port p is joined to. Positions count modulo N, cuts modulo k.
+is the removed edge between positions cut[r] and cut[r] + 1; segment r is what lies between
+cut r and the next. Every cut has two *ports*: 2 r is the end of the segment before it, and
+2 r + 1 the start of the segment behind it. The added edges join ports pairwise: join[p] is
+the port that port p is joined to. Positions count modulo N, cuts modulo k.
 """
 
 from __future__ import annotations
@@ -18,14 +18,17 @@ from numpy.typing import NDArray
 from fiveroute.kernels import kernel
 
 __all__ = [
+    "Cycles",
+    "Exchange",
     "Tour",
     "across",
     "alternate",
     "apply_exchange",
     "beside",
     "is_single_tour",
-    "place",
-    "sort_keys",
+    "new_exchange",
+    "segment_length",
+    "segment_of_port",
     "vertex_at",
 ]
 
@@ -45,11 +48,42 @@ class Tour(NamedTuple):
     position: NDArray[np.int64]
 
 
+class Cycles(NamedTuple):
+    """Alternating cycles: a removed edge, an added edge, and so on in turn.
+
+    Parameters
+    ----------
+    vertices
+        Vertices of all cycles one after the other. In a cycle w of 2 m vertices, the edges
+        (w[0], w[1]), (w[2], w[3]), ... are removed; (w[1], w[2]), ..., (w[2 m - 1], w[0])
+        are added.
+    starts
+        Index of the first vertex of each cycle, and behind it the number of all vertices.
+    """
+
+    vertices: NDArray[np.int64]
+    starts: NDArray[np.int64]
+
+
+class Exchange(NamedTuple):
+    """Room for an exchange; how many cuts it has is kept apart.
+
+    Parameters
+    ----------
+    cut
+        Position before each removed edge, ascending, shape (K,).
+    join
+        Port that each port is joined to, shape (2 K,).
+    """
+
+    cut: NDArray[np.int64]
+    join: NDArray[np.int64]
+
+
 @kernel
-def place(tour: Tour) -> None:
-    """Fill the positions from the order."""
-    for p in range(len(tour.order)):
-        tour.position[tour.order[p]] = p
+def new_exchange(room: int) -> Exchange:
+    """Room for `room` cuts."""
+    return Exchange(np.empty(room, dtype=np.int64), np.empty(2 * room, dtype=np.int64))
 
 
 @kernel
@@ -64,69 +98,83 @@ def beside(tour: Tour, vertex: int, side: int) -> int:
 
 
 @kernel
-def vertex_at(tour: Tour, cut: NDArray[np.int64], port: int) -> int:
+def vertex_at(tour: Tour, exchange: Exchange, port: int) -> int:
     """Vertex at a port."""
-    p = cut[port >> 1] + (port & 1)
+    p = exchange.cut[port >> 1] + (port & 1)
     return tour.order[p if p < len(tour.order) else 0]
 
 
 @kernel
 def across(port: int, k: int) -> int:
-    """Port at the other end of the segment."""
+    """Port at the other end of the segment, where there are k cuts."""
     if port & 1:
         return port + 1 if port + 1 < 2 * k else 0
     return port - 1 if port > 0 else 2 * k - 1
 
 
 @kernel
+def segment_of_port(port: int, k: int) -> int:
+    """Segment that a port is an end of."""
+    if port & 1:
+        return port >> 1
+    return (port >> 1) - 1 if port > 0 else k - 1
+
+
+@kernel
+def segment_length(tour: Tour, exchange: Exchange, k: int, segment: int) -> int:
+    """Number of vertices on a segment."""
+    if segment + 1 < k:
+        return exchange.cut[segment + 1] - exchange.cut[segment]
+    return exchange.cut[0] - exchange.cut[segment] + len(tour.order)
+
+
+@kernel
 def alternate(
-    tour: Tour,
-    walk: NDArray[np.int64],
-    k: int,
-    cut: NDArray[np.int64],
-    join: NDArray[np.int64],
-    keys: NDArray[np.int64],
-) -> None:
-    """Describe the exchange along an alternating cycle.
+    tour: Tour, cycles: Cycles, count: int, exchange: Exchange, scratch: NDArray[np.int64]
+) -> int:
+    """Describe the exchange along alternating cycles.
 
     Parameters
     ----------
     tour
-        The tour.
-    walk
-        Vertices of the cycle, at least 2 k of them: the tour edges (walk[0], walk[1]),
-        (walk[2], walk[3]), ... are removed, and (walk[1], walk[2]), ...,
-        (walk[2 k - 1], walk[0]) are added.
-    k
-        Number of removed edges.
-    cut, join
-        Filled with the exchange; at least k and 2 k long.
-    keys
-        Scratch space, at least 2 k long.
+        The tour; the removed edges are edges of it.
+    cycles
+        Cycles without a common removed or added edge.
+    count
+        How many of them, from the first.
+    exchange
+        Filled: one cut for every second vertex of the cycles.
+    scratch
+        Working space, as long as the cycles.
+
+    Returns
+    -------
+    int
+        Number of cuts.
     """
+    k = cycles.starts[count] // 2
     last = len(tour.order) - 1
     for i in range(k):
-        p, q = tour.position[walk[2 * i]], tour.position[walk[2 * i + 1]]
-        if q - p == 1 or p - q == last:
-            keys[i] = p * k + i
-        else:
-            keys[i] = q * k + i
-    sort_keys(keys[:k])
-    port = keys[k:]  # of the first vertex of removed edge i; keys[r] is read before it
+        p = tour.position[cycles.vertices[2 * i]]
+        q = tour.position[cycles.vertices[2 * i + 1]]
+        forward = q - p == 1 or p - q == last
+        scratch[i] = (p if forward else q) * k + i
+    _sort(scratch[:k])
+    port = scratch[k:]  # of the first vertex of every removed edge
     for r in range(k):
-        cut[r] = keys[r] // k
-        i = keys[r] % k
-        join[i] = 2 * r + (tour.position[walk[2 * i]] != cut[r])
-    for i in range(k):
-        port[i] = join[i]
-    for i in range(k):
-        here, there = port[i] ^ 1, port[i + 1 if i + 1 < k else 0]
-        join[here] = there
-        join[there] = here
+        i = scratch[r] % k
+        exchange.cut[r] = scratch[r] // k
+        port[i] = 2 * r + (tour.position[cycles.vertices[2 * i]] != exchange.cut[r])
+    for c in range(count):
+        first, end = cycles.starts[c] // 2, cycles.starts[c + 1] // 2
+        for i in range(first, end):
+            here, there = port[i] ^ 1, port[i + 1 if i + 1 < end else first]
+            exchange.join[here], exchange.join[there] = there, here
+    return k
 
 
 @kernel
-def sort_keys(keys: NDArray[np.int64]) -> None:
+def _sort(keys: NDArray[np.int64]) -> None:
     """Sort in place: Shell's method, an insertion sort where there are few keys."""
     gap = 1
     while 9 * gap < 4 * len(keys):
@@ -140,79 +188,54 @@ def sort_keys(keys: NDArray[np.int64]) -> None:
                 j -= gap
             keys[j] = key
         gap = 4 * gap // 9
-    return
 
 
 @kernel
-def is_single_tour(join: NDArray[np.int64], k: int) -> bool:
+def is_single_tour(exchange: Exchange, k: int) -> bool:
     """Whether an exchange leaves one tour rather than several."""
     port = 1
     for visited in range(1, k + 1):
-        port = join[across(port, k)]
+        port = exchange.join[across(port, k)]
         if port == 1:
             return visited == k
     return False
 
 
 @kernel
-def apply_exchange(
-    tour: Tour, cut: NDArray[np.int64], join: NDArray[np.int64], k: int, scratch: NDArray[np.int64]
-) -> tuple[int, int]:
+def apply_exchange(tour: Tour, exchange: Exchange, k: int, scratch: NDArray[np.int64]) -> None:
     """Carry out an exchange that leaves a single tour.
 
-    The longest segment stays in place and the others are laid behind it anew.
+    The longest segment stays in place, and the others are laid behind it anew.
 
     Parameters
     ----------
     tour
         Changed in place.
-    cut, join, k
-        The exchange.
+    exchange, k
+        The exchange and its number of cuts.
     scratch
-        Scratch space, shape (N,).
-
-    Returns
-    -------
-    tuple
-        First position that was written, and how many positions from there on.
+        Working space, shape (N,).
     """
     size = len(tour.order)
-    longest, stay = -1, 0
-    for r in range(k):
-        length = _length(cut, r, k, size)
-        if length > longest:
-            longest, stay = length, r
+    stay = 0
+    for r in range(1, k):
+        if segment_length(tour, exchange, k, r) > segment_length(tour, exchange, k, stay):
+            stay = r
+    start = 2 * stay + 1
+    behind = across(start, k)
     written = 0
-    port = join[across(2 * stay + 1, k)]
-    while port != 2 * stay + 1:
-        p = cut[port >> 1] + (port & 1)
+    port = exchange.join[behind]
+    while port != start:
+        p = exchange.cut[port >> 1] + (port & 1)
         step = 1 if port & 1 else -1
-        r = port >> 1 if port & 1 else (port >> 1) - 1
-        for _ in range(_length(cut, r, k, size)):
-            if p >= size:
-                p -= size
-            elif p < 0:
-                p += size
+        for _ in range(segment_length(tour, exchange, k, segment_of_port(port, k))):
+            p = p - size if p >= size else p + size if p < 0 else p
             scratch[written] = tour.order[p]
             written += 1
             p += step
-        port = join[across(port, k)]
-    first = cut[stay + 1 if stay + 1 < k else 0] + 1
-    p = first
+        port = exchange.join[across(port, k)]
+    p = exchange.cut[behind >> 1]
     for i in range(written):
-        if p >= size:
-            p -= size
+        p = p + 1 if p + 1 < size else 0
         tour.order[p] = scratch[i]
         tour.position[scratch[i]] = p
-        p += 1
-    return first, written
-
-
-@kernel
-def _length(cut: NDArray[np.int64], segment: int, k: int, size: int) -> int:
-    """Number of vertices on the segment behind a cut; `segment` may be -1."""
-    if segment < 0:
-        segment = k - 1
-    if segment + 1 < k:
-        return cut[segment + 1] - cut[segment]
-    return cut[0] - cut[segment] + size

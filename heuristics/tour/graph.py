@@ -97,8 +97,7 @@ def giant_graph(problem: TeamOrienteering, clock: Clock) -> Graph | None:
     else:
         exits = n + 1
         mate = np.concatenate(([2 * n + 1], np.arange(n + 1, 2 * n + 1), np.arange(1, n + 1), [0]))
-    width = min(NEIGHBOURS, (exits or n) - 1)
-    near = np.empty((len(mate), width), dtype=np.int64)
+    near = np.empty((len(mate), min(NEIGHBOURS, n)), dtype=np.int64)
     graph = Graph(problem.travel, exits, mate, near, np.empty(near.shape))
     step = max(_ROWS_AT_ONCE // len(mate), 1)
     for first in range(0, len(mate), step):
