@@ -50,7 +50,7 @@ def test_a_cycle_apart_is_cut_off() -> None:
     links = all_links(4, symmetric=True)
     values = np.zeros(links.shape[1])
     for used in ((0, 1), (1, 5), (2, 3), (3, 4), (2, 4)):
-        values[(used == links.T).all(axis=1)] = 1.0
+        values[np.all(links.T == np.array(used), axis=1)] = 1.0
     (cut,) = violated_cuts(Pairs.of(links[0], links[1], 4), values)
     outside = {tuple(link) for link in links[:, cut.links].T.tolist()}
     assert outside == {(i, j) for i in (0, 1) for j in (2, 3, 4)} | {(2, 5), (3, 5), (4, 5)}
@@ -68,7 +68,7 @@ def test_two_triangles_of_halves_violate_a_blossom() -> None:
     ones = ((1, 4), (2, 5), (0, 3), (6, 7))
     for share, used in ((0.5, halves), (1.0, ones)):
         for link in used:
-            values[(link == links.T).all(axis=1)] = share
+            values[np.all(links.T == np.array(link), axis=1)] = share
     cuts = violated_cuts(Pairs.of(links[0], links[1], 6), values)
     assert cuts
     for cut in cuts:
