@@ -10,7 +10,7 @@ import click
 from fiveroute.errors import InputError
 from fiveroute.formats import read_instance
 from fiveroute.formats.files import require_writable
-from fiveroute.instance import Instance, Ocean
+from fiveroute.instance import Instance
 
 __all__ = ["read_mission", "require_folder", "require_output"]
 
@@ -44,7 +44,7 @@ def read_mission(path: Path, *, straight_lines: bool = True) -> Instance:
         Whether the user asked to ignore the ocean.
     """
     mission = read_instance(path)
-    if not straight_lines and mission.ocean != Ocean():
+    if not straight_lines and mission.has_ocean:
         click.echo(
             "fiveroute: legs are straight lines in still water; the ocean of this instance "
             "is not planned in yet (--straight-lines says so and silences this)",
