@@ -21,6 +21,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from fiveroute.heuristics.insertion_route import insertion_route
 from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
 
@@ -121,22 +122,7 @@ def hierarchical(
 
 def sub_routes(problem: TeamOrienteering, sets: Sequence[Route]) -> tuple[Route, ...]:
     """Put every set of nodes into the order of a short route from start to destination."""
-    return tuple(_ordered(problem, nodes) for nodes in sets)
-
-
-def _ordered(problem: TeamOrienteering, nodes: Route) -> Route:
-    """Insert node after node at its cheapest place, then shorten routes of a usual length."""
-    from fiveroute.heuristics.route_kernels import cheapest_place, shift_in, shorten
-
-    vertices = np.array([0, *nodes, problem.destination])
-    legs = problem.travel[np.ix_(vertices, vertices)] + problem.service[vertices]
-    stops = np.full(len(vertices), len(nodes) + 1)
-    stops[0] = 0
-    for node in range(1, len(nodes) + 1):
-        shift_in(stops, node + 1, cheapest_place(legs, stops, node + 1, node)[1], node)
-    if len(nodes) <= 1000:
-        shorten(legs, stops, len(stops))
-    return tuple(vertices[stops[1:-1]].tolist())
+    return tuple(insertion_route(problem, nodes) for nodes in sets)
 
 
 def _sets(labels: NDArray[np.integer[Any]], fleet_size: int) -> tuple[Route, ...]:

@@ -3,13 +3,14 @@
 Lines 2 to 5 of Algorithm 1. The giant route R_0, one route through all nodes with no
 regard to endurance (13), (14), tells how many AUVs the mission needs (17), and is cut
 into as many sub-routes of equal time (18). The sub-routes are where the route tier starts.
-A genetic population has several good giant routes, and there are several ways to measure
-evenness: every pair of them is another start. The allocations that the paper compares
+There are several good giant routes, and several ways to measure evenness: every pair of
+them is another start. The allocations that the paper compares
 with (Voronoi, k-means, AHC) start from clusters instead.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, count, cycle, islice, repeat
@@ -164,18 +165,30 @@ def allocations(
     """
     match method:
         case "giant-route":
-            starts = _segmented(problem, giant_routes)
+            starts = _segmented(problem, giant_routes, math.ceil(most / 2), rng)
         case "voronoi" | "k-means" | "ahc":
             starts = _clustered(problem, method, points, rng)
     return (_matched(problem, start) for start in islice(starts, most))
 
 
-def _segmented(problem: TeamOrienteering, giant_routes: Sequence[Route]) -> Iterator[Start]:
+def _segmented(
+    problem: TeamOrienteering,
+    giant_routes: Sequence[Route],
+    most: int,
+    rng: np.random.Generator,
+) -> Iterator[Start]:
+    """Cut the best giant routes, and various others if they are few, for two measures."""
+    from fiveroute.heuristics.insertion_route import various_routes
     from fiveroute.models.segmentation import Balance, segment
 
-    for balance in (Balance.SQUARED, Balance.MINMAX):
-        for route in giant_routes:
-            yield segment(problem, route, problem.fleet_size, balance)
+    def cut(routes: Sequence[Route], balance: Balance) -> Iterator[Start]:
+        return (segment(problem, route, problem.fleet_size, balance) for route in routes)
+
+    best = tuple(giant_routes[:most])
+    yield from cut(best, Balance.SQUARED)
+    others = various_routes(problem, most - len(best), rng)
+    yield from cut(others, Balance.SQUARED)
+    yield from cut(best + others, Balance.MINMAX)
 
 
 def _clustered(
