@@ -1,0 +1,1 @@
+"""Parts of the fleet search: the stops, their chains, removal, insertion, annealing."""
