@@ -1,1 +1,102 @@
-"""Placeholder."""
+"""Exact methods: a proof, or the best plan and bound that the time allows.
+
+`METHODS` names them. Each has the signature
+
+    method(problem, limits, *, warm_start=None, progress=None) -> Result
+
+and is imported when it is first called, so that importing this package costs nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import import_module
+from types import MappingProxyType
+from typing import cast
+
+from fiveroute.errors import InputError
+from fiveroute.limits import Limits, ProgressCallback
+from fiveroute.plan import Plan
+from fiveroute.problem import TeamOrienteering
+from fiveroute.result import Result
+
+__all__ = ["METHODS", "Method", "choose", "solve"]
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """An exact method, known by its module until it is called."""
+
+    module: str
+
+    def __call__(
+        self,
+        problem: TeamOrienteering,
+        limits: Limits | None = None,
+        *,
+        warm_start: Plan | None = None,
+        progress: ProgressCallback | None = None,
+    ) -> Result:
+        """Solve the problem."""
+        method = import_module(self.module)
+        result = method.solve(problem, limits, warm_start=warm_start, progress=progress)
+        return cast(Result, result)
+
+    def supports(self, problem: TeamOrienteering) -> bool:
+        """Whether the method takes such a problem."""
+        return bool(import_module(self.module).supports(problem))
+
+
+METHODS: Mapping[str, Method] = MappingProxyType(
+    {
+        "brute-force": Method("fiveroute.models.brute_force"),
+        "circuit": Method("fiveroute.models.circuit"),
+        "compact": Method("fiveroute.models.compact"),
+        "flow": Method("fiveroute.models.flow"),
+    }
+)
+"""Exact methods by name."""
+
+_FEW_NODES = 40
+
+
+def choose(problem: TeamOrienteering) -> str:
+    """Name of the method to expect most of: circuits up to some 40 nodes, flow beyond."""
+    return "circuit" if problem.n <= _FEW_NODES else "flow"
+
+
+def solve(
+    problem: TeamOrienteering,
+    method: str = "auto",
+    limits: Limits | None = None,
+    *,
+    warm_start: Plan | None = None,
+    progress: ProgressCallback | None = None,
+) -> Result:
+    """Solve a problem with the method of that name.
+
+    Parameters
+    ----------
+    problem
+        The problem.
+    method
+        A name in `METHODS`, or ``auto`` for what `choose` says; the result names it.
+    limits
+        When to stop; None without any limit.
+    warm_start
+        A plan to start from; one that the judge rejects is left aside.
+    progress
+        Told of better plans and bounds.
+
+    Raises
+    ------
+    InputError
+        If there is no such method, or it does not take such a problem.
+    """
+    name = choose(problem) if method == "auto" else method
+    if name not in METHODS:
+        raise InputError(
+            f"no such method; choose auto, {', '.join(METHODS)}", field="method", value=method
+        )
+    return METHODS[name](problem, limits, warm_start=warm_start, progress=progress)

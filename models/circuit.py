@@ -227,7 +227,9 @@ class _Search(cp_model.CpSolverSolutionCallback):
         solver.best_bound_callback = self._lower
         with on_interrupt(clock.limits.interrupt, solver.stop_search):
             status = solver.solve(self._circuits.cp, self)
-        if status in (cp_model.OPTIMAL, cp_model.FEASIBLE, cp_model.UNKNOWN):
+        if status == cp_model.MODEL_INVALID:
+            raise AssertionError(f"CP-SAT refuses the model: {self._circuits.cp.validate()}")
+        if status == cp_model.OPTIMAL:  # stopped before presolve, CP-SAT calls 0 a bound
             self._lower(solver.best_objective_bound)
         return int(status)
 

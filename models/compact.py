@@ -125,8 +125,8 @@ class _Search:
         outcome = self._program.solve()
         if outcome is not Outcome.INFEASIBLE:
             self._lower(self._program.bound)
-            if self._program.has_solution:
-                self._judge(self._program.values)
+        if outcome is Outcome.OPTIMAL:  # stopped, HiGHS may still hold the relaxation's point
+            self._judge(self._program.values)
         return outcome
 
     def forbid_rejected(self) -> None:
