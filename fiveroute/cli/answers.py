@@ -156,7 +156,7 @@ def print_routes(answer: Mapping[str, Any]) -> None:
             zip(answer["routes"], answer["durations"], strict=True), start=1
         )
     ]
-    print_table(answer["instance"], ("", "nodes", "time", "route"), rows)
+    print_table(answer["instance"], ("", "nodes", "time", "route"), rows, words=(0, 3))
     for name, text in _figures(answer):
         click.echo(f"{name:<16}{text}")
 
@@ -186,7 +186,7 @@ def print_gaps(rows: Sequence[GapRow], summary: GapSummary) -> None:
         for row in rows
     ]
     header = ("instance", "nodes", "AUVs", "plan", "bound", "best known", "gap", "time")
-    print_table("", header, cells)
+    print_table("", header, cells, words=(0,))
     click.echo(
         f"{summary.instances} instances, {summary.proved} proved optimal, "
         f"{summary.reached} at the best known value; gap mean {gap_text(summary.mean_gap)}, "
@@ -231,14 +231,16 @@ def _clock(seconds: float) -> str:
     return f"{minutes // 60}:{minutes % 60:02d}:{rest:02d}"
 
 
-def print_table(title: str, header: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
-    """Print a table for people; figures are flush right."""
+def print_table(
+    title: str, header: Sequence[str], rows: Iterable[Sequence[object]], *, words: Sequence[int]
+) -> None:
+    """Print a table for people; columns of `words` are flush left, figures flush right."""
     from rich.console import Console
     from rich.table import Table
 
     table = Table(title=title, title_justify="left", box=None, pad_edge=False)
     for column, name in enumerate(header):
-        table.add_column(name, justify="left" if column == 0 else "right", overflow="fold")
+        table.add_column(name, justify="left" if column in words else "right", overflow="fold")
     for row in rows:
         table.add_row(*map(str, row))
     Console(soft_wrap=False, highlight=False).print(table)

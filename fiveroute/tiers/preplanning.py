@@ -26,7 +26,7 @@ from fiveroute.instance import Instance
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
-from fiveroute.result import GiantRouteResult, Status
+from fiveroute.result import GiantRouteResult, Status, is_closed
 
 __all__ = ["Allocation", "Preplan", "allocations", "find_giant_route", "preplan"]
 
@@ -34,6 +34,10 @@ Allocation = Literal["giant-route", "voronoi", "k-means", "ahc"]
 
 Start = tuple[Route, ...]
 """One sub-route for every AUV, in time or not."""
+
+
+_SHARE_OF_SEARCH = {False: 0.9, True: 0.3}
+"""Share of the time limit for the search, without and with a proof after it."""
 
 
 def find_giant_route(
@@ -53,24 +57,26 @@ def find_giant_route(
     limits
         When to stop; None leaves it to the search itself.
     exact
-        Go on to prove it optimal.
+        Prove it optimal; otherwise it comes with the lower bound of Held and Karp.
     seed
         Seed of the random numbers.
     progress
         Called as the search goes on.
     """
     from fiveroute.heuristics.giant_route import giant_routes
+    from fiveroute.models.giant_route import solve_giant_route
+    from fiveroute.models.held_karp import giant_route_bound
 
     clock = (limits or Limits()).start()
     rng = np.random.default_rng(seed)
-    route = giant_routes(problem, clock.rest(), rng=rng, progress=progress)[0]
+    share = _SHARE_OF_SEARCH[exact] * clock.limits.time
+    route = giant_routes(problem, clock.limits.within(share), rng=rng, progress=progress)[0]
+    if exact:
+        return solve_giant_route(problem, clock.rest(), warm_start=route, progress=progress)
     duration = problem.duration(route)
-    found = GiantRouteResult("genetic", Status.FEASIBLE, route, duration, None, clock.seconds)
-    if not exact:
-        return found
-    from fiveroute.models.giant_route import solve_giant_route
-
-    return solve_giant_route(problem, clock.rest(), warm_start=route, progress=progress)
+    bound = min(giant_route_bound(problem, clock.rest()), duration)
+    status = Status.OPTIMAL if is_closed(bound, duration) else Status.FEASIBLE
+    return GiantRouteResult("genetic", status, route, duration, bound, clock.seconds)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
