@@ -57,13 +57,24 @@ def rebirth(case: Case, stops: Stops, length: int, noise: float, state: RandomSt
     length = _shed(case, stops, length, noise, state)
     length = _grow(case, stops, length, noise, state)
     for _ in range(4):
-        shorten(case.legs, stops, length)
-        length = _shed(case, stops, length, 0.0, state)  # samples may object to shorter legs
+        _shorten_in_time(case, stops, length)
         before = length
         length = _grow(case, stops, length, 0.0, state)
         if not _exchange(case, stops, length) and length == before:
             break
     return length
+
+
+@kernel
+def _shorten_in_time(case: Case, stops: Stops, length: int) -> None:
+    """Shorten a route, unless samples judge the shorter one to be late."""
+    if case.needed == 0:
+        shorten(case.legs, stops, length)
+        return
+    old = stops.copy()
+    shorten(case.legs, stops, length)
+    if not in_time(case, stops, length) and in_time(case, old, length):
+        stops[:] = old
 
 
 @kernel
