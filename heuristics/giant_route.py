@@ -15,6 +15,7 @@ several independent epochs agree on the best length, or the limits say so.
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from dataclasses import dataclass, field
 from itertools import permutations
 
@@ -38,13 +39,13 @@ ROUTES = 16
 _TINY = 5
 """Up to this many nodes all routes are enumerated."""
 
-_AGREEMENT = 3
+_AGREEMENT = 4
 """Independent epochs that must end at the best length for an early stop."""
 
 _STALL = 30
 """Generations without a shorter best tour that end a stage of an epoch."""
 
-_NOISE = 1.0
+_NOISE = 2.0
 """Greedy edges count up to this share more than their length, at random."""
 
 _ELITE = 4
@@ -98,17 +99,37 @@ def giant_routes(
     if graph is None:
         return (_nearest_neighbour(problem),)
     search = _Search.of(problem, graph, clock, rng, progress)
-    tours = population or max(30, min(100, 150_000 // graph.size))
-    epochs = math.inf if math.isfinite(clock.limits.time) else 3 if graph.size <= 2_500 else 1
+    tours = wanted = max(population or _population_size(graph), 2)
+    epochs = math.inf if math.isfinite(clock.limits.time) else _most_epochs(graph)
     bests: list[float] = []
     elite: list[NDArray[np.int64]] = []
-    while not clock.expired and len(bests) < epochs and not search.agrees(bests):
+    while not bests or not (clock.expired or len(bests) >= epochs or search.agrees(bests)):
+        began = clock.seconds
         last = search.epoch(tours)
         bests.append(float(last.lengths.min()))
         elite += _shortest(last)
         if len(bests) > 1:
             search.evolve(start_population(graph, np.array(elite)))
+        tours = _fitting(wanted, (clock.seconds - began) / tours, clock.left)
     return _ranked(problem, [route_of(graph, order) for order in search.hall.orders])
+
+
+def _population_size(graph: Graph) -> int:
+    """Three tours for every five nodes, but 30 to 100, and 30 for thousands of vertices."""
+    return max(30, min(3 * graph.nodes // 5, 100, 150_000 // graph.size))
+
+
+def _most_epochs(graph: Graph) -> int:
+    """Epochs after which a run without a time limit ends, agreed or not."""
+    return 12 if graph.size <= 500 else 3 if graph.size <= 2_500 else 1
+
+
+def _fitting(tours: int, seconds_each: float, left: float) -> int:
+    """Population for which a whole number of epochs fills the time left."""
+    if math.isinf(left):
+        return tours
+    epochs = max(1, round(left / (tours * seconds_each)))
+    return max(_LEAST, min(2 * tours, int(0.9 * left / (epochs * seconds_each))))
 
 
 @dataclass(slots=True)
@@ -118,10 +139,16 @@ class _Hall:
     lengths: list[float] = field(default_factory=list)
     orders: list[NDArray[np.int64]] = field(default_factory=list)
 
+    def admit_all(self, population: Population) -> None:
+        """Keep the shortest tours of a population."""
+        for order, length in zip(population.orders, population.lengths.tolist(), strict=True):
+            self.admit(order, length)
+
     def admit(self, order: NDArray[np.int64], length: float) -> None:
+        """Keep a copy of one tour, if it is among the shortest and its length is new."""
         if len(self.lengths) == ROUTES and length >= self.lengths[-1]:
             return
-        at = int(np.searchsorted(self.lengths, length))
+        at = bisect_left(self.lengths, length)
         for rival in self.lengths[max(at - 1, 0) : at + 1]:
             if abs(rival - length) <= 1e3 * _ROUNDING * length:
                 return
@@ -212,8 +239,7 @@ class _Search:
 
     def note(self, population: Population) -> None:
         """Remember the shortest tours and report the best."""
-        for i in np.argsort(population.lengths, kind="stable")[:ROUTES]:
-            self.hall.admit(population.orders[i], float(population.lengths[i]))
+        self.hall.admit_all(population)
         if self.progress is not None:
             duration = self.hall.lengths[0] + self.offset
             self.progress(Progress(self.clock.seconds, objective=duration))
@@ -222,8 +248,7 @@ class _Search:
 def _shortest(population: Population) -> list[NDArray[np.int64]]:
     """The shortest tours of pairwise different lengths."""
     hall = _Hall()
-    for order, length in zip(population.orders, population.lengths, strict=True):
-        hall.admit(order, float(length))
+    hall.admit_all(population)
     return hall.orders[:_ELITE]
 
 

@@ -65,7 +65,8 @@ def _find(edges: EdgeCount, u: int, v: int) -> int:
     for i in range(edges.used[u]):
         if edges.other[u, i] == v:
             return i
-    return edges.used[u]
+    free: int = edges.used[u]
+    return free
 
 
 @kernel
@@ -73,7 +74,8 @@ def multiplicity(edges: EdgeCount, u: int, v: int) -> int:
     """Number of tours that contain the edge between two vertices."""
     u, v = min(u, v), max(u, v)
     i = _find(edges, u, v)
-    return edges.tours[u, i] if i < edges.used[u] else 0
+    tours: int = edges.tours[u, i] if i < edges.used[u] else 0
+    return tours
 
 
 @kernel

@@ -94,14 +94,16 @@ def beside(tour: Tour, vertex: int, side: int) -> int:
         p = len(tour.order) - 1
     elif p == len(tour.order):
         p = 0
-    return tour.order[p]
+    neighbour: int = tour.order[p]
+    return neighbour
 
 
 @kernel
 def vertex_at(tour: Tour, exchange: Exchange, port: int) -> int:
     """Vertex at a port."""
     p = exchange.cut[port >> 1] + (port & 1)
-    return tour.order[p if p < len(tour.order) else 0]
+    vertex: int = tour.order[p if p < len(tour.order) else 0]
+    return vertex
 
 
 @kernel
@@ -123,9 +125,8 @@ def segment_of_port(port: int, k: int) -> int:
 @kernel
 def segment_length(tour: Tour, exchange: Exchange, k: int, segment: int) -> int:
     """Number of vertices on a segment."""
-    if segment + 1 < k:
-        return exchange.cut[segment + 1] - exchange.cut[segment]
-    return exchange.cut[0] - exchange.cut[segment] + len(tour.order)
+    length: int = exchange.cut[segment + 1 if segment + 1 < k else 0] - exchange.cut[segment]
+    return length if length > 0 else length + len(tour.order)
 
 
 @kernel
@@ -152,7 +153,7 @@ def alternate(
     int
         Number of cuts.
     """
-    k = cycles.starts[count] // 2
+    k: int = cycles.starts[count] // 2
     last = len(tour.order) - 1
     for i in range(k):
         p = tour.position[cycles.vertices[2 * i]]

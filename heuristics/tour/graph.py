@@ -65,17 +65,25 @@ class Graph(NamedTuple):
         """Number N of vertices."""
         return len(self.mate)
 
+    @property
+    def nodes(self) -> int:
+        """Number n of sensor nodes."""
+        return len(self.travel) - 2
+
 
 @kernel
 def edge_cost(graph: Graph, u: int, v: int) -> float:
     """Cost in seconds of the edge between two different vertices, in any order."""
+    cost: float = np.inf
     if graph.exits == 0:
-        return graph.travel[u, v]
+        cost = graph.travel[u, v]
+        return cost
     if u >= graph.exits:
         u, v = v, u
     if u >= graph.exits or v < graph.exits:
-        return np.inf
-    return graph.travel[u, v - graph.exits + 1]
+        return cost
+    cost = graph.travel[u, v - graph.exits + 1]
+    return cost
 
 
 @kernel

@@ -55,14 +55,14 @@ class LocalSearch(NamedTuple):
         Ring of the vertices whose moves must still be searched, shape (N,).
     queued
         Whether a vertex is in it, shape (N,).
-    count
+    ring
         Index of the head of the queue, and number of vertices in it.
     """
 
     tour: Tour
     queue: NDArray[np.int64]
     queued: NDArray[np.bool_]
-    count: NDArray[np.int64]
+    ring: NDArray[np.int64]
 
 
 def start_search(order: NDArray[np.int64]) -> LocalSearch:
@@ -96,7 +96,7 @@ def improve(graph: Graph, search: LocalSearch, work: int, tolerance: float) -> b
     path = Cycles(np.empty(2 * DEPTH, dtype=np.int64), np.zeros(2, dtype=np.int64))
     scratch = np.empty(len(search.queue) + 2 * DEPTH, dtype=np.int64)
     for _ in range(work):
-        if search.count[_WAITING] == 0:
+        if search.ring[_WAITING] == 0:
             return True
         vertex = _next_in_queue(search)
         while True:
@@ -106,16 +106,16 @@ def improve(graph: Graph, search: LocalSearch, work: int, tolerance: float) -> b
             apply_exchange(search.tour, exchange, k, scratch)
             for i in range(2 * k):
                 _enqueue(search, path.vertices[i])
-    return search.count[_WAITING] == 0
+    return bool(search.ring[_WAITING] == 0)
 
 
 @kernel
 def _next_in_queue(search: LocalSearch) -> int:
-    head = search.count[_HEAD]
-    vertex = search.queue[head]
+    head = search.ring[_HEAD]
+    vertex: int = search.queue[head]
     search.queued[vertex] = False
-    search.count[_HEAD] = head + 1 if head + 1 < len(search.queue) else 0
-    search.count[_WAITING] -= 1
+    search.ring[_HEAD] = head + 1 if head + 1 < len(search.queue) else 0
+    search.ring[_WAITING] -= 1
     return vertex
 
 
@@ -123,9 +123,9 @@ def _next_in_queue(search: LocalSearch) -> int:
 def _enqueue(search: LocalSearch, vertex: int) -> None:
     if not search.queued[vertex]:
         search.queued[vertex] = True
-        tail = search.count[_HEAD] + search.count[_WAITING]
+        tail = search.ring[_HEAD] + search.ring[_WAITING]
         search.queue[tail if tail < len(search.queue) else tail - len(search.queue)] = vertex
-        search.count[_WAITING] += 1
+        search.ring[_WAITING] += 1
 
 
 @kernel

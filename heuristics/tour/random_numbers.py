@@ -32,4 +32,5 @@ def random_below(state: NDArray[np.uint64], bound: int) -> int:
     word = (word ^ (word >> np.uint64(30))) * _FIRST
     word = (word ^ (word >> np.uint64(27))) * _SECOND
     word ^= word >> np.uint64(31)
-    return np.int64(((word >> np.uint64(32)) * np.uint64(bound)) >> np.uint64(32))
+    drawn: int = np.int64(((word >> np.uint64(32)) * np.uint64(bound)) >> np.uint64(32))  # type: ignore[assignment]
+    return drawn

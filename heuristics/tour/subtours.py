@@ -158,7 +158,8 @@ def _beyond(tour: Tour, exchange: Exchange, k: int, p: int, side: int) -> int:
     if port >= 0:
         return vertex_at(tour, exchange, exchange.join[port])
     q = _cut_at(tour, p, side) + side
-    return tour.order[q if q < len(tour.order) else 0]
+    vertex: int = tour.order[q if q < len(tour.order) else 0]
+    return vertex
 
 
 @kernel
