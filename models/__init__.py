@@ -10,7 +10,7 @@ and is imported when it is first called, so that importing this package costs no
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
 from types import MappingProxyType
 from typing import cast
@@ -74,7 +74,7 @@ def solve(
     warm_start: Plan | None = None,
     progress: ProgressCallback | None = None,
 ) -> Result:
-    """Solve a problem with the method of that name.
+    """Solve a problem with the method of that name, and shorten the routes it found.
 
     Parameters
     ----------
@@ -99,4 +99,9 @@ def solve(
         raise InputError(
             f"no such method; choose auto, {', '.join(METHODS)}", field="method", value=method
         )
-    return METHODS[name](problem, limits, warm_start=warm_start, progress=progress)
+    result = METHODS[name](problem, limits, warm_start=warm_start, progress=progress)
+    if result.plan is None:
+        return result
+    from fiveroute.models.shorten import shortened
+
+    return replace(result, plan=shortened(problem, result.plan))

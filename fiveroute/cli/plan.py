@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from fiveroute.cli import options
+
+if TYPE_CHECKING:
+    from fiveroute.mission import Bounding, Search
+    from fiveroute.tiers.preplanning import Allocation
 
 __all__ = ["command"]
 
@@ -60,9 +65,9 @@ def command(
     fleet_size: int | None,
     time_limit: float,
     seed: int,
-    allocation: str,
-    search: str,
-    bound: str,
+    allocation: Allocation,
+    search: Search,
+    bound: Bounding,
     samples: int,
     quantile: float | None,
     straight_lines: bool,

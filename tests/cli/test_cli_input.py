@@ -22,7 +22,7 @@ def assert_refused(answer: Any, *words: str) -> None:
     [
         ({"fleet__speed": 0}, ("fleet.speed", "0", "greater than 0")),
         ({"nodes__0__data": -1}, ("nodes[0].data", "-1")),
-        ({"nodes__1__id": "a"}, ("nodes", "'a'", "unique")),
+        ({"nodes__1__id": "a"}, ("nodes[1].id", "'a'", "of its own")),
         ({"nodes__0__x": float("nan")}, ("nodes[0].x", "finite")),
         ({"fleet__sped": 1.0}, ("sped", "speed")),
     ],
