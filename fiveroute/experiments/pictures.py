@@ -6,8 +6,7 @@ Okabe and Ito (2008), which colour-blind readers can tell apart.
 
 from __future__ import annotations
 
-import os
-import tempfile
+import secrets
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -115,14 +114,11 @@ def completion_boxes(
 
 def save(figure: Figure, path: Path) -> None:
     """Write a figure, whole or not at all; the suffix chooses the format."""
-    try:
-        handle, name = tempfile.mkstemp(suffix=path.suffix, dir=path.parent)
-    except OSError as error:
-        raise InputError(f"cannot be written ({error.strerror})", file=path) from None
-    os.close(handle)
-    part = Path(name)
+    part = path.with_name(f".{path.stem}.{secrets.token_hex(6)}{path.suffix}")
     try:
         figure.savefig(part, dpi=150)
         part.replace(path)
+    except OSError as error:
+        raise InputError(f"cannot be written ({error.strerror})", file=path) from None
     finally:
         part.unlink(missing_ok=True)
