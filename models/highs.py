@@ -36,7 +36,7 @@ from numpy.typing import ArrayLike, NDArray
 from fiveroute.limits import Clock
 
 if TYPE_CHECKING:
-    from scipy.sparse import csr_array
+    from scipy.sparse import csc_array, csr_array
 
 __all__ = ["Outcome", "Program", "highspy"]
 
@@ -83,6 +83,15 @@ class Program:
     on_progress
         Told the incumbent's objective and the bound while an integer solve runs; None for
         what is not known yet.
+
+    Attributes
+    ----------
+    has_solution
+        Whether the last solve left a feasible point.
+    objective
+        Objective of that point.
+    bound
+        What bounds the objective of the last integer solve, as HiGHS believes.
     """
 
     def __init__(
@@ -96,6 +105,9 @@ class Program:
         self._on_progress = on_progress
         self._reported = -math.inf
         self._integers: list[NDArray[np.int32]] = []
+        self.has_solution = False
+        self.objective = math.nan
+        self.bound = math.nan
         self.highs = highspy.Highs()
         self.set("output_flag", False)
         self.set("threads", 1)
@@ -111,16 +123,34 @@ class Program:
             raise ValueError(f"HiGHS refuses {option} = {value!r}")
 
     def add_columns(
-        self, cost: ArrayLike, lower: ArrayLike, upper: ArrayLike, *, integer: bool = False
+        self,
+        cost: ArrayLike,
+        lower: ArrayLike,
+        upper: ArrayLike,
+        matrix: csc_array | None = None,
+        *,
+        integer: bool = False,
     ) -> slice:
-        """Append columns to the programme, absent from all rows so far; return their places."""
+        """Append columns; return their places.
+
+        Parameters
+        ----------
+        cost, lower, upper
+            A value a column, or one for all.
+        matrix
+            Coefficients in the rows that exist already, shape (rows, columns); None for zeros.
+        integer
+            Whether `require_integers` shall concern them; until then they are continuous.
+        """
         first = self.highs.getNumCol()
         cost, lower, upper = (
             np.array(v, dtype=np.float64) for v in np.broadcast_arrays(cost, lower, upper)
         )
-        none = np.zeros(0, dtype=np.int32)
-        starts = np.zeros(len(cost), dtype=np.int32)
-        self.highs.addCols(len(cost), cost, lower, upper, 0, starts, none, np.zeros(0))
+        starts, rows, entries = np.zeros(len(cost), np.int32), np.zeros(0, np.int32), np.zeros(0)
+        if matrix is not None:
+            starts, rows = matrix.indptr[:-1].astype(np.int32), matrix.indices.astype(np.int32)
+            entries = matrix.data.astype(np.float64)
+        self.highs.addCols(len(cost), cost, lower, upper, len(entries), starts, rows, entries)
         columns = slice(first, first + len(cost))
         if integer:
             self._integers.append(np.arange(columns.start, columns.stop, dtype=np.int32))
@@ -171,23 +201,8 @@ class Program:
         return outcome or Outcome.STOPPED
 
     @property
-    def has_solution(self) -> bool:
-        """Whether the last solve left a feasible point."""
-        return bool(self.highs.getInfo().primal_solution_status == 2)
-
-    @property
-    def objective(self) -> float:
-        """Objective of the last point."""
-        return float(self.highs.getInfo().objective_function_value)
-
-    @property
-    def bound(self) -> float:
-        """What HiGHS believes to bound the objective of the last integer solve, as it says."""
-        return float(self.highs.getInfo().mip_dual_bound)
-
-    @property
     def values(self) -> Values:
-        """The last point, a value a column."""
+        """The last point, a value a column; gone when rows or columns change."""
         return np.array(self.highs.getSolution().col_value, dtype=np.float64)
 
     @property
@@ -204,6 +219,10 @@ class Program:
         # HiGHS adds up the run times of one object and holds the sum against its limit.
         self.set("time_limit", min(self.highs.getRunTime() + self._clock.left, highspy.kHighsInf))
         self.highs.run()
+        info = self.highs.getInfo()
+        self.has_solution = bool(info.primal_solution_status == _FEASIBLE_POINT)
+        self.objective = float(info.objective_function_value)
+        self.bound = float(info.mip_dual_bound)
         return _OUTCOMES.get(self.highs.getModelStatus(), Outcome.STOPPED)
 
     def _watch(self, event: Any) -> None:
@@ -219,6 +238,7 @@ class Program:
 
 
 _REPORT_EVERY = 0.2  # seconds between two progress reports
+_FEASIBLE_POINT = 2  # kSolutionStatusFeasible of HiGHS
 
 _OUTCOMES: dict[Any, Outcome | None] = {
     highspy.HighsModelStatus.kOptimal: Outcome.OPTIMAL,

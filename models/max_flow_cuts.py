@@ -69,6 +69,8 @@ def violated_sets(
     Booleans
         Membership of every set, shape (c, v); none twice, none with the source.
     """
+    if max(tails.max(initial=0), heads.max(initial=0)) >= len(demand):
+        raise ValueError("every vertex needs a demand; give 0 to those without")
     used = values > _FULL
     found = _search(
         np.ascontiguousarray(tails[used], dtype=np.int64),
@@ -80,7 +82,8 @@ def violated_sets(
         tolerance,
         most,
     )
-    return np.unique(found, axis=0) if len(found) else found
+    distinct = {members.tobytes(): k for k, members in enumerate(np.packbits(found, axis=1))}
+    return found[list(distinct.values())]
 
 
 @kernel

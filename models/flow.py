@@ -1,0 +1,167 @@
+r"""Two-index time-flow model of team orienteering: it knows arcs and times, but no AUVs.
+
+With x_ij = 1 if some AUV sails the leg from i to j, and z_ij its time of arrival at j on that leg,
+the paper's problem (2) to (8) reads
+
+    max  sum_j rho_j y_j                                                       (2)  objective
+    s.t. sum_j x_0j = M, and M_c arcs end in the destination of class c        (3)  fleet, class
+         sum_i x_ij = y_j <= 1                                                 (4)  degree
+         sum_i x_ij = sum_k x_jk                                               (5)  balance
+         sum_i z_ij + sum_k (t_jk + s_j) x_jk = sum_k z_jk                     (6)  clock
+         a_ij x_ij <= z_ij <= b_ij x_ij                                        (6)  window
+         sum of x_ij into S >= y_k for k in S, start not in S                  (7)-(8)  sets
+         x, y integer
+
+for sensor nodes j. The clock takes the place of an index for the AUV: what arrives at j at some
+time leaves it after the service, and reaches the destination within the budget. Different budgets
+need no more than one copy of the destination for every distinct budget (classes c of M_c equal
+AUVs), see `fiveroute.models.network`. The clock forbids cycles apart from the start unless they
+take no time at all; the sets forbid those too, and they tighten the relaxation.
+
+The root is solved as a linear programme with all arcs and violated sets
+(`fiveroute.models.flow_relaxation`). Its multipliers remove arcs that no plan better than the known
+one contains, by weak duality, and HiGHS solves the rest by branch-and-cut. Plans that the judge
+rejects, since HiGHS works to a coarser tolerance, are cut off, and the model is solved again.
+
+References
+----------
+N. Bianchessi, R. Mansini and M. G. Speranza, "A branch-and-cut algorithm for the Team
+Orienteering Problem", International Transactions in Operational Research 25 (2018),
+doi 10.1111/itor.12422.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fiveroute.limits import Limits, Progress, ProgressCallback
+from fiveroute.models.common_divisor import common_divisor, rounded_down
+from fiveroute.models.flow_program import FlowProgram, arcs_of
+from fiveroute.models.flow_relaxation import FlowRelaxation, relax
+from fiveroute.models.greedy_plan import greedy_plan
+from fiveroute.models.highs import Outcome
+from fiveroute.models.incumbent import Incumbent
+from fiveroute.models.network import Network
+from fiveroute.models.weak_duality import promising
+from fiveroute.plan import Plan, Route
+from fiveroute.problem import TeamOrienteering
+from fiveroute.result import Result
+
+__all__ = ["solve", "supports"]
+
+_SHORT = 0.999  # share of the data's grid that any better plan surely gains
+_UNVISITED = 0.1  # weight in the first plan of a node that the relaxation does not visit
+
+
+def supports(problem: TeamOrienteering) -> bool:
+    """Any problem: times, budgets and data may be what they like."""
+    return True
+
+
+def solve(
+    problem: TeamOrienteering,
+    limits: Limits | None = None,
+    *,
+    warm_start: Plan | None = None,
+    progress: ProgressCallback | None = None,
+) -> Result:
+    """Solve to optimality, or as far as the limits allow.
+
+    Parameters
+    ----------
+    problem
+        The problem.
+    limits
+        When to stop; None without any limit.
+    warm_start
+        A plan to start from; one that the judge rejects is left aside.
+    progress
+        Told of better plans and bounds.
+    """
+    incumbent = Incumbent(problem, "flow", limits, warm_start=warm_start, progress=progress)
+    network = Network.of(problem)
+    if network.has_no_route:
+        return incumbent.infeasible()
+    if incumbent.must_stop:
+        return incumbent.result()
+    root = relax(network, incumbent.clock)
+    if root.dual.value < 0.0:
+        return incumbent.infeasible()
+    incumbent.lower(rounded_down(root.dual.value, problem.profit))
+    _offer_greedy_plan(root, incumbent)
+    if incumbent.must_stop:
+        return incumbent.result()
+    if _branch(_remaining(root, incumbent, progress), incumbent) is Outcome.INFEASIBLE:
+        if incumbent.plan is None:
+            return incumbent.infeasible()
+        incumbent.lower(incumbent.objective)
+    return incumbent.result()
+
+
+def _offer_greedy_plan(root: FlowRelaxation, incumbent: Incumbent) -> None:
+    visits = np.append(root.visits[: root.network.n + 1], 0.0)
+    plan = greedy_plan(incumbent.problem, incumbent.problem.profit * (_UNVISITED + visits))
+    if plan is not None:
+        incumbent.offer(plan)
+
+
+def _remaining(
+    root: FlowRelaxation, incumbent: Incumbent, progress: ProgressCallback | None
+) -> FlowProgram:
+    """The model over arcs that the best plan or a better one may use, with the sets of use."""
+    network, profit = root.network, incumbent.problem.profit
+    least = max(incumbent.objective, 0.0)
+    better = least + _SHORT * (common_divisor(profit) or 0.0)
+    arcs, _ = promising(network, root.multipliers, root.dual, better)
+    _, needed = promising(network, root.multipliers, root.dual, least)
+    if incumbent.plan is not None:
+        arcs |= arcs_of(network, incumbent.plan)
+
+    def report(objective: float | None, bound: float | None) -> None:
+        if progress is not None:
+            known = max(incumbent.objective, -np.inf if objective is None else objective)
+            limit = incumbent.bound if bound is None else min(incumbent.bound, bound)
+            shown = None if known == -np.inf else known
+            progress(Progress(incumbent.clock.seconds, shown, limit, incumbent.method))
+
+    program = FlowProgram(network, arcs, needed, incumbent.clock, report)
+    program.add_sets(root.multipliers.sets, root.multipliers.served)
+    return program
+
+
+def _branch(program: FlowProgram, incumbent: Incumbent) -> Outcome:
+    """Solve again and again until the judge accepts the optimum; return how it ended."""
+    while True:
+        if incumbent.plan is not None:
+            program.start_from(incumbent.plan)
+        outcome = program.solve(incumbent.clock.limits.gap)
+        bound = program.bound
+        accepted = _take(program, incumbent)
+        if outcome is not Outcome.INFEASIBLE:
+            bound = rounded_down(bound, incumbent.problem.profit)
+            incumbent.lower(max(bound, incumbent.objective))
+        if accepted or outcome is not Outcome.OPTIMAL or incumbent.must_stop:
+            return outcome
+
+
+def _take(program: FlowProgram, incumbent: Incumbent) -> bool:
+    """Offer the plan of the last point; cut off what is wrong, and say whether nothing was."""
+    found = program.routes()
+    if found is None:
+        return True
+    routes, cycles = found
+    for cycle in cycles:
+        program.forbid_cycle(cycle)
+    problem = incumbent.problem
+    waiting = [list(auvs) for auvs in program.network.members]
+    plan: list[Route] = [()] * problem.fleet_size
+    accepted = not cycles
+    for auv_class, route in routes:
+        auv = waiting[auv_class].pop()
+        if problem.duration(route) <= problem.allowed[auv]:
+            plan[auv] = route
+        else:
+            program.forbid(route, auv_class)
+            accepted = False
+    incumbent.offer(Plan.of(plan))
+    return accepted
