@@ -58,6 +58,8 @@ def route_panels(instance: Instance, panels: Sequence[Panel]) -> Figure:
     data = np.array([node.data for node in instance.nodes])
     for axis, panel in zip(axes, panels, strict=True):
         _draw_map(axis, points, data, panel)
+    most = max(axes, key=lambda axis: len(axis.get_legend_handles_labels()[0]))
+    figure.legend(*most.get_legend_handles_labels(), loc="outside lower center", ncols=10)
     return figure
 
 
@@ -78,8 +80,6 @@ def _draw_map(
     axis.plot(*points[0], "^", color="black", markersize=10, zorder=3)
     axis.plot(*points[-1], "*", color="black", markersize=13, zorder=3)
     axis.set(title=panel.title, aspect="equal", xlabel="x, km", ylabel="y, km")
-    if len(panel.routes) > 1:
-        axis.legend(loc="upper right", fontsize="small", framealpha=0.8)
 
 
 def completion_boxes(
