@@ -162,7 +162,7 @@ def plan_mission(
         plan = None if routing is None else routing.plan
 
         # Beyond the paper: the whole fleet at once, and how far it may be from optimal.
-        if search == "fleet" and plan is not None:
+        if search == "fleet" and plan is not None and not steps.clock.expired:
             until = steps.begin("fleet search", 1.0)
             plan = fleet_search(
                 problem, until, rng=for_fleet, warm_start=plan, progress=steps.relay
