@@ -1,3 +1,5 @@
+from typing import Any
+
 import numba
 
 from fiveroute.kernels import kernel, on_compilation
@@ -20,6 +22,6 @@ def test_compilation_is_announced_once() -> None:
     told = []
     on_compilation(lambda: told.append(True))
     for _ in range(2):
-        compiled = numba.njit(_never_kept_on_disk)
+        compiled: Any = numba.njit(_never_kept_on_disk)
         assert compiled(1.0) == 2.0
     assert told == [True]
