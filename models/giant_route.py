@@ -25,8 +25,8 @@ symmetric traveling salesman problems", SIAM Review 33(1), 1991, doi 10.1137/103
 from __future__ import annotations
 
 from fiveroute.errors import InputError
-from fiveroute.limits import Limits, Progress, ProgressCallback
-from fiveroute.models.held_karp import has_symmetric_nodes, held_karp, useful_links
+from fiveroute.limits import Clock, Limits, Progress, ProgressCallback
+from fiveroute.models.held_karp import HeldKarp, has_symmetric_nodes, held_karp, useful_links
 from fiveroute.models.tour_branching import BranchAndCut, Incumbent
 from fiveroute.models.tour_descent import good_route
 from fiveroute.models.tour_relaxation import Links
@@ -36,7 +36,7 @@ from fiveroute.result import PROOF_TOLERANCE, GiantRouteResult, Status
 
 __all__ = ["solve_giant_route"]
 
-METHOD = "branch-and-cut"
+_METHOD = "branch-and-cut"
 
 _MOST_LINKS = 200_000
 """Number of links left above which branch and cut is not begun."""
@@ -81,21 +81,31 @@ def solve_giant_route(
             progress(Progress(clock.seconds, incumbent.duration, incumbent.proved(bound)))
 
     relaxed = held_karp(problem, clock)
-    bound = relaxed.bound
-    report(bound)
-    if bound < incumbent.cutoff and not clock.expired:
-        tails, heads = useful_links(problem, relaxed, incumbent.cutoff)
-        if len(tails) <= _MOST_LINKS:
-            times = problem.travel[tails, heads]
-            links = Links(tails, heads, times, problem.n, has_symmetric_nodes(problem))
-            search = BranchAndCut(links, incumbent, bound, clock, report)
-            search.run()
-            bound = search.bound
-    return _answer(incumbent, bound, clock.seconds)
+    report(relaxed.bound)
+    links = _links(problem, relaxed, incumbent, clock)
+    if links is None:
+        return _answer(incumbent, relaxed.bound, clock.seconds)
+    search = BranchAndCut(links, incumbent, relaxed.bound, clock, report)
+    search.run()
+    return _answer(incumbent, search.bound, clock.seconds)
+
+
+def _links(
+    problem: TeamOrienteering, relaxed: HeldKarp, incumbent: Incumbent, clock: Clock
+) -> Links | None:
+    """What a route worth finding can use; None where there is nothing left to do or to try."""
+    if relaxed.bound >= incumbent.cutoff or clock.expired:
+        return None
+    useful = useful_links(problem, relaxed, incumbent.cutoff, _MOST_LINKS)
+    if useful is None:
+        return None
+    tails, heads = useful
+    symmetric = has_symmetric_nodes(problem)
+    return Links(tails, heads, problem.travel[tails, heads], problem.n, symmetric)
 
 
 def _answer(incumbent: Incumbent, bound: float, seconds: float) -> GiantRouteResult:
     duration, proved = incumbent.duration, incumbent.proved(bound)
     closed = duration - proved <= PROOF_TOLERANCE * duration
     status = Status.OPTIMAL if closed else Status.FEASIBLE
-    return GiantRouteResult(METHOD, status, incumbent.route, duration, proved, seconds)
+    return GiantRouteResult(_METHOD, status, incumbent.route, duration, proved, seconds)

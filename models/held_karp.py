@@ -69,6 +69,9 @@ _MISSED = 1e-4
 _HEADROOM = 0.04
 """How far the target of the steps lies above the best value, relative."""
 
+_ROUNDING = 1e-12
+"""Relative error that the rounding of long sums stays below."""
+
 
 @dataclass(frozen=True, slots=True)
 class Tree:
@@ -117,7 +120,8 @@ def giant_route_bound(problem: TeamOrienteering, limits: Limits | None = None) -
     Valid whenever it is stopped; without a time limit the ascent ends by itself.
     """
     clock = (limits or Limits()).start()
-    return held_karp(problem, clock).bound + float(problem.service.sum())
+    bound = held_karp(problem, clock).bound + float(problem.service.sum())
+    return bound * (1.0 - _ROUNDING)
 
 
 def held_karp(problem: TeamOrienteering, clock: Clock) -> HeldKarp:
@@ -130,7 +134,7 @@ def held_karp(problem: TeamOrienteering, clock: Clock) -> HeldKarp:
     if problem.n < _SPARSE_FROM:
         return _ascend(complete, prices, clock, scale, _STEPS)
     tree = complete(prices)
-    best, links, steps = HeldKarp(tree.value, prices), _near_links(problem), _STEPS // 16
+    best, links, steps = HeldKarp(tree.value, prices), _near_links(problem, clock), _STEPS // 16
     for _ in range(_ROUNDS):
         links = np.hstack((links, tree.links))
         sparse = _sparse_graph(problem, symmetric, links)
@@ -145,25 +149,28 @@ def held_karp(problem: TeamOrienteering, clock: Clock) -> HeldKarp:
     return best
 
 
-def useful_links(problem: TeamOrienteering, relaxed: HeldKarp, upper: float) -> Integers:
+def useful_links(
+    problem: TeamOrienteering, relaxed: HeldKarp, upper: float, most: int
+) -> Integers | None:
     """Arcs that a route with a travel time below `upper` can use, shape (2, any).
 
     Every other arc, forced into the shortest tree, lifts the bound to `upper` or above.
     Where the nodes are symmetric, an arc between two of them stands for both directions.
+    None is returned where there are more than `most`.
     """
     symmetric = has_symmetric_nodes(problem)
-    leaving, entering = relaxed.prices
     there, back = problem.travel, _way_back(problem, symmetric)
+    leaving, entering = relaxed.prices
     order, parent, forward = _blank(problem.n)
     dense_tree(there, back, symmetric, leaving, entering, order, parent, forward)
     slack = upper - relaxed.bound
-    inner = links_within(there, symmetric, leaving, entering, order, parent, slack)
-    out = problem.travel[0, 1:-1] + entering[1:-1]
-    home = problem.travel[1:-1, -1] + leaving[1:-1]
+    inner = links_within(there, symmetric, leaving, entering, order, parent, slack, most)
+    out, home = there[0, 1:-1] + entering[1:-1], there[1:-1, -1] + leaving[1:-1]
     firsts = 1 + np.flatnonzero(out <= out.min() + slack)
     lasts = 1 + np.flatnonzero(home <= home.min() + slack)
     start, destination = np.zeros_like(firsts), np.full_like(lasts, problem.destination)
-    return np.hstack((inner, (start, firsts), (lasts, destination)))
+    links = np.hstack((inner, (start, firsts), (lasts, destination)))
+    return links if links.shape[1] <= most else None
 
 
 def _ascend(grow: Grow, prices: Floats, clock: Clock, scale: float, steps: int) -> HeldKarp:
@@ -262,13 +269,14 @@ def _with_ends(
     return Tree(value, links, excess)
 
 
-def _near_links(problem: TeamOrienteering) -> Integers:
-    """Links of every node to its nearest ones, taking the shorter way, shape (2, any)."""
+def _near_links(problem: TeamOrienteering, clock: Clock) -> Integers:
+    """Links of the nodes to their nearest ones, taking the shorter way, shape (2, any)."""
     inner = problem.travel[1:-1, 1:-1]
-    count = min(_NEIGHBOURS, problem.n - 1)
-    near = np.empty((problem.n, count), np.int64)
-    for i in range(problem.n):
-        either = np.minimum(inner[i], inner[:, i])
-        either[i] = np.inf
-        near[i] = np.argpartition(either, count - 1)[:count]
-    return np.stack((np.repeat(np.arange(problem.n), count), near.ravel())) + 1
+    near: list[Integers] = []
+    while len(near) < problem.n and not clock.expired:
+        node = len(near)
+        either = np.minimum(inner[node], inner[:, node])
+        either[node] = np.inf
+        near.append(np.argpartition(either, _NEIGHBOURS)[:_NEIGHBOURS])
+    tails = np.repeat(np.arange(len(near)), _NEIGHBOURS)
+    return np.stack((tails, np.ravel(near).astype(np.int64))) + 1

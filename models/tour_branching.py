@@ -230,7 +230,7 @@ class BranchAndCut:
             if bound >= self._incumbent.cutoff or self._clock.expired:
                 return bound, None
             values = self._relaxation.values
-            cuts = violated_cuts(self._pairs, values)
+            cuts = violated_cuts(self._pairs, values, self._clock)
             if not cuts:
                 return bound, values
             self._relaxation.add(cuts)
@@ -261,13 +261,13 @@ class BranchAndCut:
     def _round(self, values: Floats) -> None:
         """Follow links of high value from the start, and improve the route that results."""
         links, problem = self._relaxation.links, self._incumbent.problem
-        value = np.zeros_like(problem.travel)
-        value[links.tails, links.heads] = values
+        lessened = (1.0 - values) * links.times - values * links.times.mean()
+        times = problem.travel.copy()
+        times[links.tails, links.heads] = lessened
         if links.symmetric:
-            value = np.maximum(value, value.T)
-        attraction = problem.travel * (1.0 - value) - value * links.times.mean()
-        attraction.setflags(write=False)
-        first = tuple(nearest_neighbours(attraction).tolist())
+            times[links.heads, links.tails] = lessened
+        times.setflags(write=False)
+        first = tuple(nearest_neighbours(times).tolist())
         self._incumbent.offer(good_route(problem, self._clock, first, _ROUNDING_KICKS))
 
     def _drop(self) -> None:

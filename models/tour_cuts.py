@@ -34,6 +34,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from fiveroute.limits import Clock
 from fiveroute.models.max_flow_cuts import violated_sets
 
 __all__ = ["Cut", "Pairs", "violated_cuts"]
@@ -47,6 +48,12 @@ _ZERO = 1e-6
 
 _VIOLATED = 1e-2
 """Least violation worth a blossom."""
+
+_ENOUGH = 200
+"""Number of violated sets after which to stop looking."""
+
+_SLICE = 400_000
+"""Flows times links between two looks at the clock."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,24 +112,37 @@ class Pairs:
         return np.asarray(members[self.ends[0]] != members[self.ends[1]])
 
 
-def violated_cuts(pairs: Pairs, values: Floats) -> list[Cut]:
-    """Sub-tour eliminations that the link values violate; blossoms where there are none."""
+def violated_cuts(pairs: Pairs, values: Floats, clock: Clock) -> list[Cut]:
+    """Sub-tour eliminations that the link values violate; blossoms where there are none.
+
+    There may be more of either, and any where the clock has expired.
+    """
     total = pairs.total(values)
-    cuts = [_subtour(pairs, members) for members in _separated(pairs, total)]
+    cuts = [_subtour(pairs, members) for members in _separated(pairs, total, clock)]
     return cuts or list(_blossoms(pairs, total))
 
 
-def _separated(pairs: Pairs, total: Floats) -> Booleans:
+def _separated(pairs: Pairs, total: Floats, clock: Clock) -> Booleans:
     """Node sets that violate a sub-tour elimination, shape (any, n + 1).
 
     Vertices joined by a link of value one need not be told apart (Padberg and Rinaldi 1990).
     """
     labels = _components(pairs, total >= 1.0 - _ZERO)
-    tails, heads = labels[np.hstack((pairs.ends, pairs.ends[::-1]))]
-    demand = np.full(labels.max() + 1, 2.0)
-    demand[labels[0]] = 0.0
-    sets = violated_sets(tails, heads, np.tile(total, 2), demand, source=int(labels[0]))
-    return sets[:, labels]
+    used = np.flatnonzero(total > 0.0)
+    tails, heads = labels[np.hstack((pairs.ends[:, used], pairs.ends[::-1, used]))]
+    values, depot = np.tile(total[used], 2), int(labels[0])
+    waiting = np.setdiff1d(labels, [depot])
+    portion = 1 + _SLICE // (1 + len(values))
+    found = np.zeros((0, labels.max() + 1), np.bool_)
+    while len(waiting) and len(found) < _ENOUGH and not clock.expired:
+        demand = np.zeros(labels.max() + 1)
+        demand[waiting[:portion]] = 2.0
+        sets = violated_sets(tails, heads, values, demand, source=depot)
+        found = np.concatenate((found, sets))
+        waiting = waiting[portion:]
+        small = sets[2 * sets.sum(axis=1) <= len(demand)]
+        waiting = waiting[~small[:, waiting].any(axis=0)]
+    return found[:, labels]
 
 
 def _components(pairs: Pairs, joined: Booleans) -> Integers:

@@ -140,12 +140,13 @@ def _rise(heap: Integers, place: Integers, cost: Floats, node: int) -> None:
 @kernel
 def links_within(
     there: Floats, symmetric: bool, leaving: Floats, entering: Floats, order: Integers,
-    parent: Integers, slack: float,
+    parent: Integers, slack: float, most: int,
 ) -> Integers:  # fmt: skip
     """Arcs between nodes that lengthen the shortest tree by no more than `slack`, (2, any).
 
     An arc forced into the tree pushes out the dearest link between its two ends. Where
-    times are symmetric, only arcs to a higher number are given.
+    times are symmetric, only arcs to a higher number are given. The search ends when there
+    are more than `most`.
     """
     n = len(order)
     first, others, costs = _adjacency(there, symmetric, leaving, entering, order, parent)
@@ -154,6 +155,8 @@ def links_within(
     found = np.empty((2, 16 * n), np.int64)
     count = 0
     for i in range(1, n + 1):
+        if count > most:
+            break
         _dearest_from(i, first, others, costs, stack, dearest)
         for j in range(i + 1 if symmetric else 1, n + 1):
             if j == i or there[i, j] + leaving[i] + entering[j] - dearest[j] > slack:

@@ -7,7 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fiveroute.limits import Clock, Limits
 from fiveroute.models.tour_cuts import Pairs, violated_cuts
+
+
+def unlimited() -> Clock:
+    return Limits().start()
 
 
 def all_links(nodes: int, symmetric: bool) -> np.ndarray:
@@ -18,10 +23,15 @@ def all_links(nodes: int, symmetric: bool) -> np.ndarray:
     return np.array(links).T
 
 
+def at(links: np.ndarray) -> dict[tuple[int, int], int]:
+    """Place of every link."""
+    return {(tail, head): k for k, (tail, head) in enumerate(links.T.tolist())}
+
+
 def point(links: np.ndarray, *routes: tuple[int, ...], nodes: int, symmetric: bool) -> np.ndarray:
-    """Mean of the incidence vectors of routes; a part in brackets is a cycle of its own."""
+    """Mean of the incidence vectors of routes."""
     values = np.zeros(links.shape[1])
-    place = {tuple(link): k for k, link in enumerate(links.T.tolist())}
+    place = at(links)
     for route in routes:
         for i, j in itertools.pairwise((0, *route, nodes + 1)):
             inside = symmetric and 0 < j < i
@@ -37,7 +47,7 @@ def test_every_route_satisfies_every_cut(seed: int, nodes: int, symmetric: bool)
     links = all_links(nodes, symmetric)
     pairs = Pairs.of(links[0], links[1], nodes)
     kinds = rng.choice([0.0, 0.5, 1.0, rng.random()], links.shape[1], p=[0.5, 0.3, 0.1, 0.1])
-    cuts = violated_cuts(pairs, kinds)
+    cuts = violated_cuts(pairs, kinds, unlimited())
     for cut in cuts:
         assert cut.weights @ kinds[cut.links] < cut.least
         for route in itertools.permutations(range(1, nodes + 1)):
@@ -50,8 +60,8 @@ def test_a_cycle_apart_is_cut_off() -> None:
     links = all_links(4, symmetric=True)
     values = np.zeros(links.shape[1])
     for used in ((0, 1), (1, 5), (2, 3), (3, 4), (2, 4)):
-        values[np.all(links.T == np.array(used), axis=1)] = 1.0
-    (cut,) = violated_cuts(Pairs.of(links[0], links[1], 4), values)
+        values[at(links)[used]] = 1.0
+    (cut,) = violated_cuts(Pairs.of(links[0], links[1], 4), values, unlimited())
     outside = {tuple(link) for link in links[:, cut.links].T.tolist()}
     assert outside == {(i, j) for i in (0, 1) for j in (2, 3, 4)} | {(2, 5), (3, 5), (4, 5)}
     assert cut.least == 2.0
@@ -68,8 +78,8 @@ def test_two_triangles_of_halves_violate_a_blossom() -> None:
     ones = ((1, 4), (2, 5), (0, 3), (6, 7))
     for share, used in ((0.5, halves), (1.0, ones)):
         for link in used:
-            values[np.all(links.T == np.array(link), axis=1)] = share
-    cuts = violated_cuts(Pairs.of(links[0], links[1], 6), values)
+            values[at(links)[link]] = share
+    cuts = violated_cuts(Pairs.of(links[0], links[1], 6), values, unlimited())
     assert cuts
     for cut in cuts:
         assert sorted(cut.weights)[:3] == [-1.0] * 3
@@ -79,7 +89,7 @@ def test_two_triangles_of_halves_violate_a_blossom() -> None:
 def test_a_route_violates_nothing() -> None:
     links = all_links(6, symmetric=False)
     values = point(links, (3, 1, 6, 2, 5, 4), nodes=6, symmetric=False)
-    assert violated_cuts(Pairs.of(links[0], links[1], 6), values) == []
+    assert violated_cuts(Pairs.of(links[0], links[1], 6), values, unlimited()) == []
 
 
 def test_start_and_destination_are_one_depot() -> None:

@@ -73,7 +73,7 @@ def test_links_within_slack(symmetric: bool) -> None:
     there, back, leaving, entering, cost = prepared(n, symmetric, seed=3)
     order, parent, forward = blank(n)
     length = dense_tree(there, back, symmetric, leaving, entering, order, parent, forward)
-    found = links_within(there, symmetric, leaving, entering, order, parent, slack)
+    found = links_within(there, symmetric, leaving, entering, order, parent, slack, 100)
     arcs = there + leaving[:, None] + entering
     expected = set()
     for i in range(1, n + 1):
