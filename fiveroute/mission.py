@@ -136,11 +136,11 @@ def plan_mission(
     if quantile is not None and not samples:
         raise InputError("a quantile needs samples; set their number as well", field="quantile")
     steps = _Steps((limits or Limits()).start(), _END_OF_PLAN[bound], progress)
-    for_tier1, for_tier2, for_fleet = np.random.default_rng(seed).spawn(3)
+    for_tours, for_starts, for_routes, for_fleet = np.random.default_rng(seed).spawn(4)
 
     # Tier 1: a giant route, and from it the size of the fleet.
     until = steps.begin("giant route", _END_OF_GIANT_ROUTE[search])
-    tier1 = preplan(instance, fleet_size, until, rng=for_tier1)
+    tier1 = preplan(instance, fleet_size, until, rng=for_tours)
     problem, routing = tier1.problem, None
     if is_proved_infeasible(problem):
         result = Result.infeasible(method=search, seconds=steps.clock.seconds)
@@ -154,11 +154,11 @@ def plan_mission(
             1 if literal else effort.starts,
             giant_routes=tier1.giant_routes,
             points=instance.points,
-            rng=for_tier1,
+            rng=for_starts,
         )
-        sampled = _sampled(instance, samples, quantile, for_tier2)
+        sampled = _sampled(instance, samples, quantile, for_routes)
         how = replace(effort.search, literal=literal, sampled=sampled)
-        routing = best_routing(problem, starts, how, rng=for_tier2, clock=until.start())
+        routing = best_routing(problem, starts, how, rng=for_routes, clock=until.start())
         plan = None if routing is None else routing.plan
 
         # Beyond the paper: the whole fleet at once, and how far it may be from optimal.
