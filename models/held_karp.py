@@ -135,6 +135,8 @@ def held_karp(problem: TeamOrienteering, clock: Clock) -> HeldKarp:
         return _ascend(complete, prices, clock, scale, _STEPS)
     tree = complete(prices)
     best, links, steps = HeldKarp(tree.value, prices), _near_links(problem, clock), _STEPS // 16
+    if clock.expired:
+        return best
     for _ in range(_ROUNDS):
         links = np.hstack((links, tree.links))
         sparse = _sparse_graph(problem, symmetric, links)
