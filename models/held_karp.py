@@ -29,6 +29,7 @@ Mathematical Physics 9(3), 1969, doi 10.1016/0041-5553(69)90061-5 (the steps).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -117,11 +118,14 @@ class HeldKarp:
 def giant_route_bound(problem: TeamOrienteering, limits: Limits | None = None) -> float:
     """Lower bound on the time T_0 of the giant route, travel and services, in seconds.
 
-    Valid whenever it is stopped; without a time limit the ascent ends by itself.
+    Valid whenever it is stopped; without a time limit the ascent ends by itself. Where all
+    legs take whole seconds, so does the shortest way, and its bound is rounded up.
     """
     clock = (limits or Limits()).start()
-    bound = held_karp(problem, clock).bound + float(problem.service.sum())
-    return bound * (1.0 - _ROUNDING)
+    bound = held_karp(problem, clock).bound * (1.0 - _ROUNDING)
+    if all((row == np.floor(row)).all() for row in problem.travel):
+        bound = math.ceil(bound)
+    return (bound + float(problem.service.sum())) * (1.0 - _ROUNDING)
 
 
 def held_karp(problem: TeamOrienteering, clock: Clock) -> HeldKarp:

@@ -115,3 +115,13 @@ def test_sparse_graphs_serve_asymmetric_times() -> None:
 def test_stopped_at_once_it_is_still_a_bound() -> None:
     problem = of_times(square(60, 4))
     assert 0.0 < giant_route_bound(problem, Limits(time=0.0)) <= giant_route_bound(problem)
+
+
+def test_whole_seconds_round_the_bound_up() -> None:
+    """Distances rounded up to whole seconds make the shortest way a whole number."""
+    rng = np.random.default_rng(5)
+    points = rng.uniform(0.0, 100.0, (10, 2))
+    travel = np.ceil(np.linalg.norm(points[:, None] - points[None, :], axis=2))
+    problem = TeamOrienteering(travel, np.zeros(10), np.zeros(10), [1.0])
+    bound = giant_route_bound(problem)
+    assert abs(bound - round(bound)) < 1e-6
