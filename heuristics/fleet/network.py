@@ -69,7 +69,7 @@ def build_network(problem: TeamOrienteering, reach: int) -> Network:
     reach
         Number of near nodes to list for every node, besides the ends.
     """
-    nodes = np.flatnonzero(_in_time(problem)[1:-1]) + 1
+    nodes = _side_by_side(problem, np.flatnonzero(_in_time(problem)[1:-1]) + 1)
     fleet_size = problem.fleet_size
     vertices = np.concatenate(
         [nodes, np.zeros(fleet_size, np.int64), np.full(fleet_size, problem.destination)]
@@ -88,6 +88,22 @@ def build_network(problem: TeamOrienteering, reach: int) -> Network:
         limit=problem.allowed - _ROUNDING * np.maximum(1.0, problem.budgets),
         near=_nearest(leg, back, len(nodes), min(reach, len(nodes) - 1) + 2 * fleet_size),
     )
+
+
+def _side_by_side(problem: TeamOrienteering, nodes: Ints) -> Ints:
+    """The nodes in the order of a walk to the nearest of the rest.
+
+    What lies together in space then lies together in memory, where thousands of nodes
+    have more legs than the processor's cache can hold.
+    """
+    waiting = np.full(problem.n + 2, np.inf)
+    waiting[nodes] = 0.0
+    walk, here = np.empty_like(nodes), 0
+    for step in range(len(nodes)):
+        here = int((problem.travel[here] + waiting).argmin())
+        waiting[here] = np.inf
+        walk[step] = here
+    return walk
 
 
 def _in_time(problem: TeamOrienteering) -> NDArray[np.bool_]:
