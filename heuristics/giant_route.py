@@ -22,11 +22,11 @@ from itertools import permutations
 import numpy as np
 from numpy.typing import NDArray
 
+from fiveroute.heuristics.randomness import RandomState, random_state
 from fiveroute.heuristics.tour.crossover import Population, crossover, start_population
 from fiveroute.heuristics.tour.graph import Graph, giant_graph, route_of, tour_cost
 from fiveroute.heuristics.tour.greedy import greedy_tour
 from fiveroute.heuristics.tour.local_search import improve, start_search
-from fiveroute.heuristics.tour.random_numbers import random_state
 from fiveroute.limits import Clock, Limits, Progress, ProgressCallback
 from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
@@ -164,7 +164,7 @@ class _Search:
     graph: Graph
     clock: Clock
     rng: np.random.Generator
-    state: NDArray[np.uint64]
+    state: RandomState
     offset: float
     progress: ProgressCallback | None
     hall: _Hall = field(default_factory=_Hall)

@@ -13,15 +13,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from fiveroute.heuristics.randomness import RandomState, below
 from fiveroute.heuristics.tour.exchange import Cycles, Tour
-from fiveroute.heuristics.tour.random_numbers import random_below
 from fiveroute.kernels import kernel
 
 __all__ = ["ab_cycles"]
 
 
 @kernel
-def ab_cycles(a: Tour, b: Tour, state: NDArray[np.uint64]) -> Cycles:
+def ab_cycles(a: Tour, b: Tour, state: RandomState) -> Cycles:
     """Split the difference of two tours into AB-cycles at random.
 
     Parameters
@@ -50,7 +50,7 @@ def ab_cycles(a: Tour, b: Tour, state: NDArray[np.uint64]) -> Cycles:
     path = np.empty(2 * edges + 1, dtype=np.int64)
     seen = np.full((2, size), -1)  # index on the path, apart for even and odd ones
     while left > 0:
-        i = random_below(state, left)
+        i = below(state, left)
         root = roots[i]
         if degree[0, root] == 0:
             left -= 1
@@ -61,7 +61,7 @@ def ab_cycles(a: Tour, b: Tour, state: NDArray[np.uint64]) -> Cycles:
         last = 0
         while last > 0 or degree[0, root] > 0:
             kind, tail = last & 1, path[last]
-            head = rest[kind, tail, random_below(state, degree[kind, tail])]
+            head = rest[kind, tail, below(state, degree[kind, tail])]
             _remove(rest, degree, kind, tail, head)
             _remove(rest, degree, kind, head, tail)
             last += 1

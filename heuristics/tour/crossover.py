@@ -23,6 +23,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fiveroute.heuristics.randomness import RandomState, below
 from fiveroute.heuristics.tour.ab_cycles import ab_cycles
 from fiveroute.heuristics.tour.diversity import (
     EdgeCount,
@@ -41,7 +42,6 @@ from fiveroute.heuristics.tour.exchange import (
     vertex_at,
 )
 from fiveroute.heuristics.tour.graph import Graph, edge_cost, tour_cost
-from fiveroute.heuristics.tour.random_numbers import random_below
 from fiveroute.heuristics.tour.subtours import label_segments, segment_at, unite
 from fiveroute.kernels import kernel
 
@@ -89,7 +89,7 @@ def crossover(
     b: int,
     block: bool,
     tolerance: float,
-    state: NDArray[np.uint64],
+    state: RandomState,
 ) -> float:
     """Replace a tour by its best child with another one, if that is shorter.
 
@@ -123,7 +123,7 @@ def crossover(
     best_k, best_gain, best_score = 0, 0.0, 0.0
     centres = np.arange(len(cycles.starts) - 1)
     for i in range(min(CHILDREN, len(centres))):
-        j = i + random_below(state, len(centres) - i)
+        j = i + below(state, len(centres) - i)
         centres[i], centres[j] = centres[j], centres[i]
         count = _copy_cycle(cycles, centres[i], chosen, 0)
         k = alternate(tour, chosen, count, child, scratch)

@@ -16,6 +16,9 @@ from fiveroute.kernels import kernel
 
 __all__ = ["greedy_tour"]
 
+_PAD = 0.3
+"""Share of the mean cost added to every edge, so that noise reorders edges of cost 0 too."""
+
 
 def greedy_tour(graph: Graph, noise: float, rng: np.random.Generator) -> NDArray[np.int64]:
     """A tour of all vertices as a fresh array, shape (N,).
@@ -25,11 +28,12 @@ def greedy_tour(graph: Graph, noise: float, rng: np.random.Generator) -> NDArray
     graph
         The graph.
     noise
-        Edge costs are multiplied by random factors from 1 to 1 + `noise`.
+        Edge costs, padded a little, are multiplied by random factors from 1 to 1 + `noise`.
     rng
         Source of the noise.
     """
-    keys = graph.near_cost * (1.0 + noise * rng.random(graph.near_cost.shape))
+    padded = graph.near_cost + _PAD * graph.near_cost.mean()
+    keys = padded * (1.0 + noise * rng.random(padded.shape))
     link = _greedy_paths(graph, np.argsort(keys, axis=None, kind="stable"))
     return _chain(graph, link)
 
