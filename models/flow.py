@@ -34,9 +34,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fiveroute.limits import Limits, Progress, ProgressCallback
+from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.models.common_divisor import common_divisor, rounded_down
-from fiveroute.models.flow_program import FlowProgram, arcs_of
+from fiveroute.models.flow_program import FlowProgram, Routes, arcs_of
 from fiveroute.models.flow_relaxation import FlowRelaxation, relax
 from fiveroute.models.greedy_plan import greedy_plan
 from fiveroute.models.highs import Outcome
@@ -91,7 +91,7 @@ def solve(
     _offer_greedy_plan(root, incumbent)
     if incumbent.must_stop:
         return incumbent.result()
-    if _branch(_remaining(root, incumbent, progress), incumbent) is Outcome.INFEASIBLE:
+    if _branch(_remaining(root, incumbent), incumbent) is Outcome.INFEASIBLE:
         if incumbent.plan is None:
             return incumbent.infeasible()
         incumbent.lower(incumbent.objective)
@@ -105,9 +105,7 @@ def _offer_greedy_plan(root: FlowRelaxation, incumbent: Incumbent) -> None:
         incumbent.offer(plan)
 
 
-def _remaining(
-    root: FlowRelaxation, incumbent: Incumbent, progress: ProgressCallback | None
-) -> FlowProgram:
+def _remaining(root: FlowRelaxation, incumbent: Incumbent) -> FlowProgram:
     """The model over arcs that the best plan or a better one may use, with the sets of use."""
     network, profit = root.network, incumbent.problem.profit
     least = max(incumbent.objective, 0.0)
@@ -116,15 +114,14 @@ def _remaining(
     _, needed = promising(network, root.multipliers, root.dual, least)
     if incumbent.plan is not None:
         arcs |= arcs_of(network, incumbent.plan)
-
-    def report(objective: float | None, bound: float | None) -> None:
-        if progress is not None:
-            known = max(incumbent.objective, -np.inf if objective is None else objective)
-            limit = incumbent.bound if bound is None else min(incumbent.bound, bound)
-            shown = None if known == -np.inf else known
-            progress(Progress(incumbent.clock.seconds, shown, limit, incumbent.method))
-
-    program = FlowProgram(network, arcs, needed, incumbent.clock, report)
+    program = FlowProgram(
+        network,
+        arcs,
+        needed,
+        incumbent.clock,
+        on_bound=lambda bound: incumbent.lower(max(bound, incumbent.objective)),
+        on_routes=lambda found: _offer(found, network, incumbent),
+    )
     program.add_sets(root.multipliers.sets, root.multipliers.served)
     return program
 
@@ -135,33 +132,31 @@ def _branch(program: FlowProgram, incumbent: Incumbent) -> Outcome:
         if incumbent.plan is not None:
             program.start_from(incumbent.plan)
         outcome = program.solve(incumbent.clock.limits.gap)
-        bound = program.bound
-        accepted = _take(program, incumbent)
         if outcome is not Outcome.INFEASIBLE:
-            bound = rounded_down(bound, incumbent.problem.profit)
+            bound = rounded_down(program.bound, incumbent.problem.profit)
             incumbent.lower(max(bound, incumbent.objective))
+        found = program.routes() or Routes([], [])
+        late = _offer(found, program.network, incumbent) if found.routes else []
+        for auv_class, route in late:
+            program.forbid(auv_class, route)
+        for cycle in found.cycles:
+            program.forbid_cycle(cycle)
+        accepted = not late and not found.cycles
         if accepted or outcome is not Outcome.OPTIMAL or incumbent.must_stop:
             return outcome
 
 
-def _take(program: FlowProgram, incumbent: Incumbent) -> bool:
-    """Offer the plan of the last point; cut off what is wrong, and say whether nothing was."""
-    found = program.routes()
-    if found is None:
-        return True
-    routes, cycles = found
-    for cycle in cycles:
-        program.forbid_cycle(cycle)
+def _offer(found: Routes, network: Network, incumbent: Incumbent) -> list[tuple[int, Route]]:
+    """Offer the routes that are in time as a plan; return the others with their classes."""
     problem = incumbent.problem
-    waiting = [list(auvs) for auvs in program.network.members]
+    waiting = [list(auvs) for auvs in network.members]
     plan: list[Route] = [()] * problem.fleet_size
-    accepted = not cycles
-    for auv_class, route in routes:
+    late = []
+    for auv_class, route in found.routes:
         auv = waiting[auv_class].pop()
         if problem.duration(route) <= problem.allowed[auv]:
             plan[auv] = route
         else:
-            program.forbid(route, auv_class)
-            accepted = False
+            late.append((auv_class, route))
     incumbent.offer(Plan.of(plan))
-    return accepted
+    return late

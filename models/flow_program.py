@@ -8,6 +8,7 @@ takes one row an arc instead of two.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +22,7 @@ from fiveroute.models.legs import Leg, legs_of
 from fiveroute.models.network import Network
 from fiveroute.plan import Plan, Route
 
-__all__ = ["FlowProgram", "arcs_of"]
+__all__ = ["FlowProgram", "Routes", "arcs_of"]
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -29,6 +30,22 @@ Booleans = NDArray[np.bool_]
 
 _TOLERANCE = 1e-8  # of integrality and of rows, in units of 1 and of the horizon
 _MARGIN = 1e-7  # by which the solver's bound may be too low, in units of the objective
+
+
+@dataclass(frozen=True, slots=True)
+class Routes:
+    """What the arcs of an integer point make up.
+
+    Parameters
+    ----------
+    routes
+        Classes of AUVs and their routes.
+    cycles
+        Nodes of cycles apart from the start, in order.
+    """
+
+    routes: list[tuple[int, Route]]
+    cycles: list[Route]
 
 
 class FlowProgram:
@@ -42,8 +59,12 @@ class FlowProgram:
         Arcs that a route may use, shape (n + 1, size).
     needed
         Nodes that must be visited, shape (size,).
-    clock, on_progress
-        As for `Program`; progress in data.
+    clock
+        When to stop.
+    on_bound
+        Told bounds while a solve runs, in data.
+    on_routes
+        Told the routes and cycles of better points while a solve runs.
     """
 
     def __init__(
@@ -52,7 +73,8 @@ class FlowProgram:
         arcs: Booleans,
         needed: Booleans,
         clock: Clock,
-        on_progress: Callable[[float | None, float | None], None] | None = None,
+        on_bound: Callable[[float], None],
+        on_routes: Callable[[Routes], object],
     ) -> None:
         self.network = network
         self.tails, self.heads = np.nonzero(arcs)
@@ -63,11 +85,16 @@ class FlowProgram:
         self._early = network.earliest[self.tails] + self._legs
         self._spread = np.where(self.tails > 0, network.latest[self.heads] - self._early, 0.0)
 
-        def report(objective: float | None, bound: float | None) -> None:
-            if on_progress is not None:
-                on_progress(*(None if v is None else v * self._unit for v in (objective, bound)))
+        def tell_bound(_: float | None, bound: float | None) -> None:
+            if bound is not None:
+                on_bound((bound + _MARGIN) * self._unit)
 
-        self._program = Program(clock, maximise=True, on_progress=report)
+        def tell_routes(values: Floats) -> None:
+            on_routes(self._decode(values))
+
+        self._program = Program(
+            clock, maximise=True, on_progress=tell_bound, on_solution=tell_routes
+        )
         self._add_columns(needed)
         self._add_rows()
 
@@ -86,22 +113,9 @@ class FlowProgram:
         self._program.set("primal_feasibility_tolerance", _TOLERANCE)
         return self._program.solve()
 
-    def routes(self) -> tuple[list[tuple[int, Route]], list[Route]] | None:
-        """Routes with their classes, and cycles beside them, in the last point; None without."""
-        if not self._program.has_solution:
-            return None
-        count = np.rint(self._program.values[: len(self.tails)]).astype(np.int64)
-        used = np.repeat(np.arange(len(count)), count)
-        firsts = [int(self.heads[k]) for k in used if self.tails[k] == 0]
-        follower = {int(self.tails[k]): int(self.heads[k]) for k in used if self.tails[k] > 0}
-        routes = []
-        for first in firsts:
-            route, end = _chain(first, follower)
-            routes.append((end - self.network.n - 1, route))
-        cycles = []
-        while follower:
-            cycles.append(_chain(next(iter(follower)), follower)[0])
-        return routes, cycles
+    def routes(self) -> Routes | None:
+        """Routes and cycles of the last point; None where there is none."""
+        return self._decode(self._program.values) if self._program.has_solution else None
 
     def add_sets(self, sets: Booleans, served: Integers) -> None:
         """Let rows of connectivity enter; shapes (c, n + 1) and (c,)."""
@@ -109,7 +123,7 @@ class FlowProgram:
         rows = csr_array(crossing(sets, served, self.tails, self.heads))
         self._program.add_rows(hstack([rows, rest], format="csr"), 0.0, np.inf)
 
-    def forbid(self, route: Route, auv_class: int) -> None:
+    def forbid(self, auv_class: int, route: Route) -> None:
         """Cut off a route that takes too long: not all of its arcs together again."""
         places = [self._places[arc] for arc in _arcs(self.network, route, auv_class)]
         row = np.zeros((1, self._program.highs.getNumCol()))
@@ -126,7 +140,7 @@ class FlowProgram:
         """Hand a feasible plan to the solver; all of its arcs must be wanted."""
         network, service = self.network, self.network.service
         x, w, y = np.zeros(len(self.tails)), np.zeros(len(self.tails)), np.zeros(network.n)
-        for auv_class, route in _routes(network, plan):
+        for auv_class, route in _by_class(network, plan):
             arrival = 0.0
             for tail, head in _arcs(network, route, auv_class):
                 place = self._places[tail, head]
@@ -136,6 +150,19 @@ class FlowProgram:
                 w[place] = min(max(late / spread, 0.0), 1.0) if spread > 0.0 else 0.0
         y[[node - 1 for node in plan.visited]] = 1.0
         self._program.start_from(np.concatenate([x, w, y]))
+
+    def _decode(self, values: Floats) -> Routes:
+        count = np.rint(values[: len(self.tails)]).astype(np.int64)
+        used = np.repeat(np.arange(len(count)), count)
+        firsts = [int(self.heads[k]) for k in used if self.tails[k] == 0]
+        follower = {int(self.tails[k]): int(self.heads[k]) for k in used if self.tails[k] > 0}
+        routes, cycles = [], []
+        for first in firsts:
+            route, end = _chain(first, follower)
+            routes.append((end - self.network.n - 1, route))
+        while follower:
+            cycles.append(_chain(next(iter(follower)), follower)[0])
+        return Routes(routes, cycles)
 
     def _add_columns(self, needed: Booleans) -> None:
         network, program = self.network, self._program
@@ -181,13 +208,13 @@ class FlowProgram:
 def arcs_of(network: Network, plan: Plan) -> Booleans:
     """Arcs that a plan uses, shape (n + 1, size)."""
     used = np.zeros((network.n + 1, network.size), dtype=np.bool_)
-    for auv_class, route in _routes(network, plan):
+    for auv_class, route in _by_class(network, plan):
         used[tuple(np.array(_arcs(network, route, auv_class)).T)] = True
     return used
 
 
-def _routes(network: Network, plan: Plan) -> list[tuple[int, Route]]:
-    """Routes with the classes of their AUVs."""
+def _by_class(network: Network, plan: Plan) -> list[tuple[int, Route]]:
+    """Classes of AUVs and their routes."""
     return [(c, plan.routes[auv]) for c, auvs in enumerate(network.members) for auv in auvs]
 
 

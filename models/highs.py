@@ -83,6 +83,8 @@ class Program:
     on_progress
         Told the incumbent's objective and the bound while an integer solve runs; None for
         what is not known yet.
+    on_solution
+        Told every better integer point while it runs, a value a column.
 
     Attributes
     ----------
@@ -100,9 +102,10 @@ class Program:
         *,
         maximise: bool = False,
         on_progress: Callable[[float | None, float | None], None] | None = None,
+        on_solution: Callable[[Values], None] | None = None,
     ) -> None:
         self._clock = clock
-        self._on_progress = on_progress
+        self._on_progress, self._on_solution = on_progress, on_solution
         self._reported = -math.inf
         self._integers: list[NDArray[np.int32]] = []
         self.has_solution = False
@@ -116,6 +119,8 @@ class Program:
         self.highs.cbSimplexInterrupt += self._watch
         self.highs.cbIpmInterrupt += self._watch
         self.highs.cbMipInterrupt += self._watch
+        if on_solution is not None:
+            self.highs.cbMipImprovingSolution += self._improve
 
     def set(self, option: str, value: bool | int | float | str) -> None:
         """Set an option of HiGHS by its own name."""
@@ -235,6 +240,10 @@ class Program:
             figures = (event.data_out.mip_primal_bound, event.data_out.mip_dual_bound)
             objective, bound = (v if abs(v) < highspy.kHighsInf else None for v in figures)
             self._on_progress(objective, bound)
+
+    def _improve(self, event: Any) -> None:
+        if self._on_solution is not None and event.data_out is not None:
+            self._on_solution(np.array(event.data_out.mip_solution, dtype=np.float64))
 
 
 _REPORT_EVERY = 0.2  # seconds between two progress reports

@@ -40,10 +40,10 @@ def fractional_knapsack(
     profit: NDArray[np.float64], weight: NDArray[np.float64], capacity: float
 ) -> float:
     """Greatest profit of parts of items within a capacity, rounded up."""
-    rate = profit / np.maximum(weight, 1e-300)
-    order = np.argsort(-rate, kind="stable")
-    room = capacity * (1.0 + _SAFE) - (np.cumsum(weight[order]) - weight[order])
-    parts = np.clip(room / np.maximum(weight[order], 1e-300), 0.0, 1.0)
+    order = np.argsort(-profit / np.maximum(weight, 1e-300), kind="stable")
+    weight = weight[order]
+    room = np.maximum(capacity * (1.0 + _SAFE) - (np.cumsum(weight) - weight), 0.0)
+    parts = np.where(weight <= room, 1.0, room / np.maximum(weight, 1e-300))
     return float(profit[order] @ parts) * (1.0 + _SAFE)
 
 
