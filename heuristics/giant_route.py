@@ -121,7 +121,7 @@ def _population_size(graph: Graph) -> int:
 
 def _most_epochs(graph: Graph) -> int:
     """Epochs after which a run without a time limit ends, agreed or not."""
-    return 12 if graph.size <= 500 else 3 if graph.size <= 2_500 else 1
+    return 12 if graph.size <= 300 else 3 if graph.size <= 1_500 else 1
 
 
 def _fitting(tours: int, seconds_each: float, left: float) -> int:
