@@ -19,9 +19,10 @@ AUVs), see `fiveroute.models.network`. The clock forbids cycles apart from the s
 take no time at all; the sets forbid those too, and they tighten the relaxation.
 
 The root is solved as a linear programme with all arcs and violated sets
-(`fiveroute.models.flow_relaxation`). Its multipliers remove arcs that no plan better than the known
-one contains, by weak duality, and HiGHS solves the rest by branch-and-cut. Plans that the judge
-rejects, since HiGHS works to a coarser tolerance, are cut off, and the model is solved again.
+(`fiveroute.models.flow_relaxation`). Its multipliers bound, by weak duality, what a plan with a
+given arc can collect. HiGHS looks for a good plan among the few arcs with the highest
+bounds, and then for a proof among all arcs whose bounds exceed it. Plans that the judge rejects,
+since HiGHS works to a coarser tolerance, are cut off, and the model is solved again.
 
 References
 ----------
@@ -33,6 +34,7 @@ doi 10.1111/itor.12422.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.models.common_divisor import common_divisor, rounded_down
@@ -42,13 +44,17 @@ from fiveroute.models.greedy_plan import greedy_plan
 from fiveroute.models.highs import Outcome
 from fiveroute.models.incumbent import Incumbent
 from fiveroute.models.network import Network
-from fiveroute.models.weak_duality import promising
+from fiveroute.models.weak_duality import if_idle, if_used
 from fiveroute.plan import Plan, Route
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result
 
 __all__ = ["solve", "supports"]
 
+Booleans = NDArray[np.bool_]
+
+_CORE_ARCS = 4  # arcs a node among which a good plan is looked for first
+_CORE_TREE = 200  # branch-and-bound nodes that this may take
 _SHORT = 0.999  # share of the data's grid that any better plan surely gains
 _UNVISITED = 0.1  # weight in the first plan of a node that the relaxation does not visit
 
@@ -91,10 +97,8 @@ def solve(
     _offer_greedy_plan(root, incumbent)
     if incumbent.must_stop:
         return incumbent.result()
-    if _branch(_remaining(root, incumbent), incumbent) is Outcome.INFEASIBLE:
-        if incumbent.plan is None:
-            return incumbent.infeasible()
-        incumbent.lower(incumbent.objective)
+    if _search(root, incumbent) is Outcome.INFEASIBLE and incumbent.plan is None:
+        return incumbent.infeasible()
     return incumbent.result()
 
 
@@ -105,38 +109,58 @@ def _offer_greedy_plan(root: FlowRelaxation, incumbent: Incumbent) -> None:
         incumbent.offer(plan)
 
 
-def _remaining(root: FlowRelaxation, incumbent: Incumbent) -> FlowProgram:
-    """The model over arcs that the best plan or a better one may use, with the sets of use."""
-    network, profit = root.network, incumbent.problem.profit
-    least = max(incumbent.objective, 0.0)
-    better = least + _SHORT * (common_divisor(profit) or 0.0)
-    arcs, _ = promising(network, root.multipliers, root.dual, better)
-    _, needed = promising(network, root.multipliers, root.dual, least)
+def _search(root: FlowRelaxation, incumbent: Incumbent) -> Outcome:
+    """Look for a good plan among a few promising arcs, then for a proof among all of use."""
+    network, step = root.network, common_divisor(incumbent.problem.profit) or 0.0
+    bounds = if_used(network, root.multipliers, root.dual)
+    few = min(_CORE_ARCS * network.n, bounds.size - 1)
+    core = float(np.partition(bounds, -few - 1, axis=None)[-few - 1])
+    if core > max(incumbent.objective, 0.0):
+        program = _program(root, incumbent, bounds > core, core)
+        program.stop_after(_CORE_TREE)
+        _branch(program, incumbent, core)
+    if incumbent.must_stop:
+        return Outcome.STOPPED
+    least = max(incumbent.objective + _SHORT * step, 0.0)
+    return _branch(_program(root, incumbent, bounds >= least, -np.inf), incumbent, -np.inf)
+
+
+def _program(
+    root: FlowRelaxation, incumbent: Incumbent, arcs: Booleans, others: float
+) -> FlowProgram:
+    """The model over some arcs and those of the best plan, with the sets of use.
+
+    No plan with other arcs collects more than `others`, or than the best plan.
+    """
+    network = root.network
     if incumbent.plan is not None:
-        arcs |= arcs_of(network, incumbent.plan)
+        arcs = arcs | arcs_of(network, incumbent.plan)
     program = FlowProgram(
         network,
         arcs,
-        needed,
+        if_idle(network, root.dual) < incumbent.objective,
         incumbent.clock,
-        on_bound=lambda bound: incumbent.lower(max(bound, incumbent.objective)),
+        on_bound=lambda bound: incumbent.lower(max(bound, others, incumbent.objective)),
         on_routes=lambda found: _offer(found, network, incumbent),
     )
     program.add_sets(root.multipliers.sets, root.multipliers.served)
     return program
 
 
-def _branch(program: FlowProgram, incumbent: Incumbent) -> Outcome:
-    """Solve again and again until the judge accepts the optimum; return how it ended."""
+def _branch(program: FlowProgram, incumbent: Incumbent, others: float) -> Outcome:
+    """Solve again and again until the judge accepts the optimum; return how it ended.
+
+    `others` bounds the plans that the program does not know.
+    """
     while True:
         if incumbent.plan is not None:
             program.start_from(incumbent.plan)
         outcome = program.solve(incumbent.clock.limits.gap)
-        if outcome is not Outcome.INFEASIBLE:
-            bound = rounded_down(program.bound, incumbent.problem.profit)
-            incumbent.lower(max(bound, incumbent.objective))
+        bound = -np.inf if outcome is Outcome.INFEASIBLE else program.bound
+        bound = rounded_down(max(bound, others), incumbent.problem.profit)
         found = program.routes() or Routes([], [])
         late = _offer(found, program.network, incumbent) if found.routes else []
+        incumbent.lower(max(bound, incumbent.objective))
         for auv_class, route in late:
             program.forbid(auv_class, route)
         for cycle in found.cycles:

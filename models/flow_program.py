@@ -113,6 +113,10 @@ class FlowProgram:
         self._program.set("primal_feasibility_tolerance", _TOLERANCE)
         return self._program.solve()
 
+    def stop_after(self, nodes: int) -> None:
+        """Limit the branch-and-bound tree of every later solve."""
+        self._program.set("mip_max_nodes", nodes)
+
     def routes(self) -> Routes | None:
         """Routes and cycles of the last point; None where there is none."""
         return self._decode(self._program.values) if self._program.has_solution else None

@@ -36,7 +36,7 @@ from numpy.typing import NDArray
 
 from fiveroute.models.network import Network
 
-__all__ = ["Dual", "Multipliers", "gains", "price", "promising"]
+__all__ = ["Dual", "Multipliers", "gains", "if_idle", "if_used", "price"]
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -131,24 +131,27 @@ def price(network: Network, multipliers: Multipliers) -> Dual:
     return Dual.of(network, admissible, best)
 
 
-def promising(
-    network: Network, multipliers: Multipliers, dual: Dual, least: float
-) -> tuple[Booleans, Booleans]:
-    """Arcs that a plan with data of at least `least` may contain, and nodes it must visit.
-
-    Returns
-    -------
-    arcs : Booleans
-        Shape (n + 1, size).
-    needed : Booleans
-        Shape (size,).
-    """
-    inner = np.arange(network.size) <= network.n
-    held = np.where(inner, np.maximum(dual.best, 0.0), dual.best)
-    arcs = np.zeros((network.n + 1, network.size), dtype=np.bool_)
+def if_used(network: Network, multipliers: Multipliers, dual: Dual) -> Floats:
+    """Bounds on the data of plans that contain an arc, shape (n + 1, size)."""
+    held = _held(network, dual)
+    bounds = np.full((network.n + 1, network.size), -np.inf)
     for tails, gain in gains(network, multipliers):
-        arcs[tails] = dual.value - held + gain >= least
-    return arcs, inner & (dual.value - held < least)
+        bounds[tails] = dual.value - held + gain
+    return bounds
+
+
+def if_idle(network: Network, dual: Dual) -> Floats:
+    """Bounds on the data of plans that leave a node out, shape (size,)."""
+    return dual.value - np.where(_is_node(network), _held(network, dual), 0.0)
+
+
+def _held(network: Network, dual: Dual) -> Floats:
+    """What the best arc into a vertex adds to the bound."""
+    return np.where(_is_node(network), np.maximum(dual.best, 0.0), dual.best)
+
+
+def _is_node(network: Network) -> Booleans:
+    return np.arange(network.size) <= network.n
 
 
 def gains(network: Network, multipliers: Multipliers) -> Iterator[tuple[Integers, Floats]]:

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 from fiveroute.limits import Limits
+from fiveroute.models import bounds
 from fiveroute.models.bounds import Bound, Effort, quick_bound
 from fiveroute.problem import TeamOrienteering
 
@@ -28,25 +29,31 @@ def field(n: int, seed: int, fleet: int, budget: float) -> TeamOrienteering:
     return TeamOrienteering(travel, np.zeros(n + 2), profit, [budget] * fleet)
 
 
-@pytest.mark.parametrize("seed", range(300))
-@pytest.mark.parametrize("effort", Effort)
-def test_bounds_the_optimum(effort: Effort, seed: int, odd: Callable[[int], Any]) -> None:
+@pytest.mark.parametrize("seed", range(200))
+def test_bounds_the_optimum(seed: int, odd: Callable[[int], Any]) -> None:
     truth = odd(seed)
-    bound = quick_bound(truth.problem, effort=effort)
-    if truth.optimum is None:
-        assert bound.value >= 0.0
-    else:
-        assert bound.value >= truth.optimum
-        assert bound.method != "infeasible"
+    for effort in Effort:
+        bound = quick_bound(truth.problem, effort=effort)
+        assert bound.value >= (truth.optimum or 0.0)
+        assert bound.method != "infeasible" or truth.optimum is None
 
 
-@pytest.mark.parametrize("n", [0, 1, 5, 40, 170, 520])
+@pytest.mark.parametrize("n", [0, 1, 5, 40, 170])
 def test_more_work_never_weakens(n: int) -> None:
     problem = field(n, seed=n, fleet=3, budget=9.0)
-    limits = Limits(time=5.0)
-    values = [quick_bound(problem, limits, effort=effort).value for effort in Effort]
+    values = [quick_bound(problem, effort=effort).value for effort in Effort]
     assert values == sorted(values, reverse=True)
     assert values[0] <= problem.total_profit * (1.0 + 1e-8)
+
+
+def test_large_problems_take_the_symmetric_relaxation(monkeypatch: pytest.MonkeyPatch) -> None:
+    problem = field(40, seed=9, fleet=3, budget=9.0)
+    strong = quick_bound(problem)
+    monkeypatch.setattr(bounds, "_WITH_CLOCK", 10)
+    monkeypatch.setattr(bounds, "_WITH_DIRECTIONS", 10)
+    quick, full = quick_bound(problem), quick_bound(problem, effort=Effort.FULL)
+    assert (strong.method, quick.method, full.method) == ("flow", "symmetric", "flow")
+    assert strong.value <= full.value * (1.0 + 1e-6) <= quick.value * (1.0 + 2e-6)
 
 
 def test_the_quality_the_paper_s_size_deserves() -> None:
@@ -86,26 +93,26 @@ def test_a_relaxation_may_prove_that_there_is_no_plan() -> None:
     assert quick_bound(problem) == Bound(0.0, "infeasible")
 
 
-@pytest.mark.parametrize("n", [30, 200, 600])
+@pytest.mark.parametrize("n", [30, 180, 510])
 def test_a_stopped_bound_still_bounds(n: int) -> None:
     problem = field(n, seed=4, fleet=2, budget=10.0)
-    best = quick_bound(problem, effort=Effort.LEAST).value
+    least, quick = (quick_bound(problem, effort=e).value for e in (Effort.LEAST, Effort.QUICK))
     interrupted = Limits()
     interrupted.interrupt.set()
     for limits in (Limits(time=0.0), Limits(time=0.02), interrupted):
-        assert quick_bound(problem).value - 1e-9 <= quick_bound(problem, limits).value <= best
+        assert quick - 1e-9 <= quick_bound(problem, limits).value <= least
 
 
 def test_an_interrupt_ends_a_long_relaxation() -> None:
     limits = Limits()
     threading.Timer(0.2, limits.interrupt.set).start()
-    problem = field(700, seed=5, fleet=6, budget=18.0)
+    problem = field(510, seed=5, fleet=6, budget=18.0)
     assert quick_bound(problem, limits, effort=Effort.FULL).value <= problem.total_profit
 
 
 def test_one_direction_s_current_does_not_fool_large_problems() -> None:
     """Eastward legs take a tenth of westward ones; the symmetric relaxation must not mind."""
-    problem = field(550, seed=6, fleet=2, budget=10.0)
+    problem = field(510, seed=6, fleet=2, budget=10.0)
     rng = np.random.default_rng(6)
     east = np.where(rng.random(problem.travel.shape) < 0.5, 0.1, 1.0)
     skewed = TeamOrienteering(

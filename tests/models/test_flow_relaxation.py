@@ -23,7 +23,7 @@ def field(n: int, seed: int, fleet: int = 2) -> TeamOrienteering:
     return TeamOrienteering(travel, np.zeros(n + 2), np.pad(rng.random(n), 1), [10.0] * fleet)
 
 
-@pytest.mark.parametrize("seed", range(120))
+@pytest.mark.parametrize("seed", range(80))
 @pytest.mark.parametrize("timed", [False, True])
 def test_bounds_the_optimum(seed: int, timed: bool, odd: Callable[[int], Any]) -> None:
     truth = odd(seed)

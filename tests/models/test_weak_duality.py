@@ -11,7 +11,7 @@ import pytest
 from fiveroute.models import brute_force
 from fiveroute.models.flow_program import arcs_of
 from fiveroute.models.network import Network
-from fiveroute.models.weak_duality import Multipliers, price, promising
+from fiveroute.models.weak_duality import Multipliers, if_idle, if_used, price
 from fiveroute.problem import TeamOrienteering
 
 
@@ -29,7 +29,7 @@ def random_multipliers(network: Network, seed: int) -> Multipliers:
     return Multipliers(balance, clock, rng.normal(scale), sets, served, rng.normal(0.1, 0.3, count))
 
 
-@pytest.mark.parametrize("seed", range(150))
+@pytest.mark.parametrize("seed", range(80))
 def test_any_multipliers_bound_the_optimum(seed: int, odd: Callable[[int], Any]) -> None:
     truth = odd(seed)
     network = Network.of(truth.problem)
@@ -40,7 +40,7 @@ def test_any_multipliers_bound_the_optimum(seed: int, odd: Callable[[int], Any])
 
 
 @pytest.mark.parametrize("seed", range(60))
-def test_the_best_plan_keeps_its_arcs_and_its_nodes(seed: int, odd: Callable[[int], Any]) -> None:
+def test_what_the_best_plan_does_is_possible(seed: int, odd: Callable[[int], Any]) -> None:
     truth = odd(seed)
     if truth.optimum is None:
         return
@@ -50,9 +50,9 @@ def test_the_best_plan_keeps_its_arcs_and_its_nodes(seed: int, odd: Callable[[in
     for trial in range(8):
         multipliers = random_multipliers(network, trial).admissible()
         dual = price(network, multipliers)
-        arcs, needed = promising(network, multipliers, dual, truth.optimum)
-        assert arcs[arcs_of(network, plan)].all()
-        assert set(np.flatnonzero(needed)) <= plan.visited
+        assert (if_used(network, multipliers, dual)[arcs_of(network, plan)] >= truth.optimum).all()
+        idle = if_idle(network, dual)[1 : network.n + 1]
+        assert all(idle[node - 1] >= truth.optimum for node in plan.idle(truth.problem))
 
 
 def test_no_price_at_all_leaves_all_data_within_reach() -> None:
