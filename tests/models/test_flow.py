@@ -111,6 +111,31 @@ def test_a_warm_start_leads_the_way() -> None:
     assert nothing.status is Status.FEASIBLE
 
 
+@pytest.mark.parametrize("seed", range(40))
+def test_a_core_too_small_for_the_best_plan_claims_no_proof(
+    seed: int, odd: Callable[[int], Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    truth = odd(seed)
+    monkeypatch.setattr(flow, "_CORE_ARCS", 1)
+    monkeypatch.setattr(flow, "_MOST_ARCS", 4)
+    result = flow.solve(truth.problem)
+    if result.status is Status.INFEASIBLE:
+        assert truth.optimum is None
+    elif truth.optimum is not None:
+        assert (result.objective or 0.0) <= truth.optimum + 1e-9
+        assert result.bound is not None
+        assert result.bound >= truth.optimum
+
+
+def test_large_problems_get_a_plan_and_a_bound(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(flow, "_LARGE", 10)
+    monkeypatch.setattr(flow, "_TOO_LARGE", 20)
+    result = flow.solve(field(25, seed=1, fleet=2, budget=9.0))
+    assert result.status is Status.FEASIBLE
+    best = flow.solve(field(15, seed=1, fleet=2, budget=9.0))
+    assert best.status is Status.OPTIMAL
+
+
 def test_one_auv_does_what_two_cannot() -> None:
     """Both AUVs need node 1 to get across in time."""
     times = [[0, 1, 10], [9, 0, 1], [9, 9, 0]]
