@@ -86,10 +86,11 @@ class Incumbent:
 
         Where all leg times are integers, a route is better by at least one.
         """
-        tolerance = max(0.1 * PROOF_TOLERANCE, self.gap) * self.duration
+        travel = self.duration - self._service
+        tolerance = max(0.1 * PROOF_TOLERANCE * travel, self.gap * self.duration)
         if self._whole:
             tolerance = max(tolerance, 1.0 - 2.0 * self._doubt)
-        return self.duration - self._service - tolerance
+        return travel - tolerance
 
     def proved(self, bound: float) -> float:
         """Lower bound on T_0 in seconds that follows from one on the travel time."""
@@ -261,7 +262,8 @@ class BranchAndCut:
     def _round(self, values: Floats) -> None:
         """Follow links of high value from the start, and improve the route that results."""
         links, problem = self._relaxation.links, self._incumbent.problem
-        lessened = (1.0 - values) * links.times - values * links.times.mean()
+        unit = float(links.times.mean()) or 1.0  # links of no time are still to be followed
+        lessened = (1.0 - values) * links.times - values * unit
         times = problem.travel.copy()
         times[links.tails, links.heads] = lessened
         if links.symmetric:
