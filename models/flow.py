@@ -24,6 +24,10 @@ given arc can collect. HiGHS looks for a good plan among the few arcs with the h
 bounds, and then for a proof among all arcs whose bounds exceed it. Plans that the judge rejects,
 since HiGHS works to a coarser tolerance, are cut off, and the model is solved again.
 
+Large problems get a quick bound and a greedy plan first, because their root may outlast any
+limit, and the programme no more arcs than memory holds: those with the highest bounds, the
+best of the others being what a plan outside the programme may collect.
+
 References
 ----------
 N. Bianchessi, R. Mansini and M. G. Speranza, "A branch-and-cut algorithm for the Team
@@ -37,6 +41,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.limits import Limits, ProgressCallback
+from fiveroute.models.bounds import quick_bound
 from fiveroute.models.common_divisor import common_divisor, rounded_down
 from fiveroute.models.flow_program import FlowProgram, Routes, arcs_of
 from fiveroute.models.flow_relaxation import FlowRelaxation, relax
@@ -52,9 +57,13 @@ from fiveroute.result import Result
 __all__ = ["solve", "supports"]
 
 Booleans = NDArray[np.bool_]
+Floats = NDArray[np.float64]
 
 _CORE_ARCS = 4  # arcs a node among which a good plan is looked for first
 _CORE_TREE = 200  # branch-and-bound nodes that this may take
+_MOST_ARCS = 100_000  # arcs that the programme may have
+_LARGE = 150  # nodes above which a quick bound and a greedy plan come first
+_TOO_LARGE = 2000  # nodes above which they are all
 _SHORT = 0.999  # share of the data's grid that any better plan surely gains
 _UNVISITED = 0.1  # weight in the first plan of a node that the relaxation does not visit
 
@@ -90,11 +99,20 @@ def solve(
         return incumbent.infeasible()
     if incumbent.must_stop:
         return incumbent.result()
+    if network.n > _LARGE:
+        bound = quick_bound(problem, incumbent.clock.rest())
+        if bound.method == "infeasible":
+            return incumbent.infeasible()
+        incumbent.lower(bound.value)
+        _offer_greedy_plan(incumbent, problem.profit)
+    if network.n > _TOO_LARGE or incumbent.must_stop:
+        return incumbent.result()
     root = relax(network, incumbent.clock)
     if root.dual.value < 0.0:
         return incumbent.infeasible()
     incumbent.lower(rounded_down(root.dual.value, problem.profit))
-    _offer_greedy_plan(root, incumbent)
+    visits = np.append(root.visits[: network.n + 1], 0.0)
+    _offer_greedy_plan(incumbent, problem.profit * (_UNVISITED + visits))
     if incumbent.must_stop:
         return incumbent.result()
     if _search(root, incumbent) is Outcome.INFEASIBLE and incumbent.plan is None:
@@ -102,27 +120,51 @@ def solve(
     return incumbent.result()
 
 
-def _offer_greedy_plan(root: FlowRelaxation, incumbent: Incumbent) -> None:
-    visits = np.append(root.visits[: root.network.n + 1], 0.0)
-    plan = greedy_plan(incumbent.problem, incumbent.problem.profit * (_UNVISITED + visits))
+def _offer_greedy_plan(incumbent: Incumbent, weight: Floats) -> None:
+    plan = greedy_plan(incumbent.problem, weight, incumbent.clock)
     if plan is not None:
         incumbent.offer(plan)
 
 
 def _search(root: FlowRelaxation, incumbent: Incumbent) -> Outcome:
-    """Look for a good plan among a few promising arcs, then for a proof among all of use."""
+    """Look for a good plan among a few promising arcs, then for a proof among all of use.
+
+    The outcome is that of the whole problem: stopped where the programme lacks arcs of use.
+    """
     network, step = root.network, common_divisor(incumbent.problem.profit) or 0.0
     bounds = if_used(network, root.multipliers, root.dual)
-    few = min(_CORE_ARCS * network.n, bounds.size - 1)
-    core = float(np.partition(bounds, -few - 1, axis=None)[-few - 1])
-    if core > max(incumbent.objective, 0.0):
-        program = _program(root, incumbent, bounds > core, core)
+    arcs, others = _best_arcs(network, bounds, _CORE_ARCS * network.n)
+    if others > max(incumbent.objective, 0.0):
+        program = _program(root, incumbent, arcs, others)
         program.stop_after(_CORE_TREE)
-        _branch(program, incumbent, core)
+        _branch(program, incumbent, others)
     if incumbent.must_stop:
         return Outcome.STOPPED
     least = max(incumbent.objective + _SHORT * step, 0.0)
-    return _branch(_program(root, incumbent, bounds >= least, -np.inf), incumbent, -np.inf)
+    arcs, others = _best_arcs(network, bounds, _MOST_ARCS)
+    if others < least:
+        arcs, others = bounds >= least, -np.inf
+    outcome = _branch(_program(root, incumbent, arcs, others), incumbent, others)
+    return outcome if others == -np.inf else Outcome.STOPPED
+
+
+def _best_arcs(network: Network, bounds: Floats, count: int) -> tuple[Booleans, float]:
+    """The arcs with the highest bounds, short legs first among equals.
+
+    Returns
+    -------
+    arcs : Booleans
+        Shape (n + 1, size).
+    others : float
+        The highest bound of any other arc.
+    """
+    if count >= bounds.size:
+        return np.isfinite(bounds), -np.inf
+    legs = network.legs(np.arange(network.n + 1)[:, None], np.arange(network.size))
+    order = np.lexsort((legs.ravel(), -bounds.ravel()))
+    arcs = np.zeros(bounds.size, dtype=np.bool_)
+    arcs[order[:count]] = True
+    return arcs.reshape(bounds.shape) & np.isfinite(bounds), float(bounds.flat[order[count]])
 
 
 def _program(

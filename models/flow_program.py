@@ -124,7 +124,7 @@ class FlowProgram:
     def add_sets(self, sets: Booleans, served: Integers) -> None:
         """Let rows of connectivity enter; shapes (c, n + 1) and (c,)."""
         rest = csr_array((len(sets), len(self.tails) + self.network.n))
-        rows = csr_array(crossing(sets, served, self.tails, self.heads))
+        rows = crossing(sets, served, self.tails, self.heads)
         self._program.add_rows(hstack([rows, rest], format="csr"), 0.0, np.inf)
 
     def forbid(self, auv_class: int, route: Route) -> None:

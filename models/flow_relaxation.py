@@ -43,6 +43,7 @@ Integers = NDArray[np.int64]
 Booleans = NDArray[np.bool_]
 
 _GAIN = 1e-7  # least reduced cost of an arc worth adding, in units of the largest profit
+_BLOCK = 64  # rows of connectivity whose dense form is in memory at once
 _ARCS_A_TAIL = 4  # arcs with the best reduced costs that one pricing adds
 
 
@@ -121,7 +122,7 @@ class FlowRelaxation:
         """Let rows of connectivity enter; shapes (c, n + 1) and (c,)."""
         self.sets = np.concatenate([self.sets, sets])
         self.served = np.concatenate([self.served, served])
-        rows = csr_array(crossing(sets, served, self.tails, self.heads))
+        rows = crossing(sets, served, self.tails, self.heads)
         padding = csr_array((len(sets), self.network.classes))
         self._program.add_rows(hstack([padding, rows], format="csr"), 0.0, np.inf)
 
@@ -228,7 +229,7 @@ class FlowRelaxation:
             )
         else:
             blocks.append(csr_array([(legs + network.service[heads]) / network.horizon]))  # budget
-        blocks.append(csr_array(crossing(self.sets, self.served, tails, heads)))
+        blocks.append(crossing(self.sets, self.served, tails, heads))
         cost = network.profit[heads] / self._unit
         self._program.add_columns(cost, 0.0, np.inf, vstack(blocks, format="csc"))
         self.tails = np.concatenate([self.tails, tails])
@@ -268,10 +269,14 @@ def incidence(vertices: Integers, values: Floats, size: int) -> csr_array:
     return matrix
 
 
-def crossing(sets: Booleans, served: Integers, tails: Integers, heads: Integers) -> Floats:
+def crossing(sets: Booleans, served: Integers, tails: Integers, heads: Integers) -> csr_array:
     """Coefficients of arcs in rows of connectivity, shape (sets, arcs)."""
     inside = np.zeros((len(sets), max(sets.shape[1], int(heads.max(initial=0)) + 1)), np.bool_)
     inside[:, : sets.shape[1]] = sets
-    entering = inside[:, heads] & ~inside[:, tails]
-    rows: Floats = entering.astype(np.float64) - (heads == served[:, None])
-    return rows
+    rows = [csr_array((0, len(heads)))]
+    for first in range(0, len(sets), _BLOCK):
+        block = slice(first, first + _BLOCK)
+        entering = inside[block][:, heads] & ~inside[block][:, tails]
+        rows.append(csr_array(entering.astype(np.float64) - (heads == served[block, None])))
+    whole: csr_array = vstack(rows, format="csr")
+    return whole

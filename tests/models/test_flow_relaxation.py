@@ -95,4 +95,5 @@ def test_coefficients_of_a_set() -> None:
     """Arcs into the set count, those inside and out of it do not; y_k is its arcs in."""
     sets, served = np.array([[False, True, True, False]]), np.array([2])
     tails, heads = np.array([0, 1, 3, 2, 0]), np.array([1, 2, 2, 3, 4])
-    assert crossing(sets, served, tails, heads).tolist() == [[1.0, -1.0, 0.0, 0.0, 0.0]]
+    rows = crossing(sets, served, tails, heads).toarray()
+    assert rows.tolist() == [[1.0, -1.0, 0.0, 0.0, 0.0]]
