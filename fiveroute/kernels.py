@@ -1,16 +1,17 @@
 """How fiveroute compiles its inner loops.
 
 Kernels are compiled once and kept on disk. numba notices when the file of a kernel changes,
-but not when another kernel that it calls does; so they are kept in a folder named after
-the source of all kernels, and the folders of other sources are cleared away.
-`on_compilation` tells a caller when something is compiled, so that the first run can say
-why it takes longer.
+but not when a kernel or a constant that it takes from another file does; so the kernels of
+a module are kept in a folder named after the source of the module and of all it imports,
+and the folders of its former sources are cleared away. `on_compilation` tells a caller when
+something is compiled, so that the first run can say why it takes longer.
 """
 
 from __future__ import annotations
 
 import hashlib
 import os
+import re
 import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -32,29 +33,51 @@ _CONFIG: Any = numba.config
 
 def kernel(function: F) -> F:
     """Compile to machine code on first use, without Python objects, cached on disk."""
-    with _cached_in(_cache_folder()):
+    with _cached_in(_cache_folder(function.__module__)):
         return cast(F, numba.njit(cache=True, error_model="numpy")(function))
 
 
 @cache
-def _cache_folder() -> str:
-    """Folder for the kernels of this source; numba's own choice if it cannot be written."""
+def _cache_folder(module: str) -> str:
+    """Folder for the kernels of a module; numba's own choice if it cannot be written."""
     digest = hashlib.sha256()
-    for part in (_PACKAGE, _PACKAGE / "models", _PACKAGE / "heuristics"):
-        for path in sorted(part.rglob("*.py")):
-            source = path.read_bytes()
-            if b"@kernel" in source:
-                digest.update(source)
+    for name in sorted(_imported({module})):
+        digest.update(_source(name).encode())
     kept = _PACKAGE / "__pycache__"
-    folder = kept / f"kernels-{digest.hexdigest()[:16]}"
+    folder = kept / f"kernels-{module}-{digest.hexdigest()[:16]}"
     try:
         if not folder.is_dir():
-            for stale in set(kept.glob("kernels-*")) - {folder}:
+            for stale in set(kept.glob(f"kernels-{module}-*")) - {folder}:
                 shutil.rmtree(stale, ignore_errors=True)
             folder.mkdir(parents=True, exist_ok=True)
     except OSError:
         return str(_CONFIG.CACHE_DIR)
     return str(folder if os.access(folder, os.W_OK) else _CONFIG.CACHE_DIR)
+
+
+def _imported(modules: set[str]) -> set[str]:
+    """Modules of fiveroute, and all that these import from it, directly or not."""
+    known: set[str] = set()
+    while modules:
+        known |= modules
+        modules = {name for module in modules for name in _imports(module)} - known
+    return known
+
+
+@cache
+def _imports(module: str) -> frozenset[str]:
+    return frozenset(re.findall(r"^ *from (fiveroute\.[\w.]+) import", _source(module), re.M))
+
+
+@cache
+def _source(module: str) -> str:
+    """Source of a module of fiveroute; nothing for any other."""
+    parts = module.split(".")
+    if parts[0] != _PACKAGE.name:
+        return ""
+    path = _PACKAGE.joinpath(*parts[1:])
+    file = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+    return file.read_text(encoding="utf-8") if file.is_file() else ""
 
 
 @contextmanager

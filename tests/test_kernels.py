@@ -1,7 +1,10 @@
+from pathlib import Path
 from typing import Any
 
 import numba
+import pytest
 
+from fiveroute import kernels
 from fiveroute.kernels import kernel, on_compilation
 
 
@@ -32,6 +35,33 @@ def test_kernels_are_kept_in_a_folder_of_their_source() -> None:
     dispatcher: Any = _twice
     _twice(2.0)
     assert "kernels-" in str(dispatcher.stats.cache_path)
+
+
+def test_the_source_of_a_kernel_is_all_that_its_module_imports() -> None:
+    used = kernels._imported({"fiveroute.heuristics.variation"})
+    assert {"fiveroute.heuristics.route_kernels", "fiveroute.heuristics.randomness"} <= used
+    assert "fiveroute.models.tree_kernels" not in used
+    assert all(kernels._source(module) for module in used)
+
+
+def test_kernels_of_a_former_source_are_cleared_away(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package = tmp_path / "fiveroute"
+    (package / "ocean").mkdir(parents=True)
+    module, constant = package / "ocean" / "a.py", package / "b.py"
+    module.write_text("from fiveroute.b import C\n")
+    monkeypatch.setattr(kernels, "_PACKAGE", package)
+    folders = []
+    for text in ("C = 1", "C = 2", "C = 2"):
+        constant.write_text(text)
+        for cached in (kernels._cache_folder, kernels._imports, kernels._source):
+            cached.cache_clear()
+        folders.append(Path(kernels._cache_folder("fiveroute.ocean.a")))
+    assert folders[0] != folders[1] == folders[2]
+    assert [folder.exists() for folder in folders] == [False, True, True]
+    for cached in (kernels._cache_folder, kernels._imports, kernels._source):
+        cached.cache_clear()
 
 
 def test_numba_keeps_its_own_choice_for_others() -> None:
