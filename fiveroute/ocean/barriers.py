@@ -1,0 +1,182 @@
+"""Where an AUV must not be: round obstacles, polygons, land from a mask, the edge of the data.
+
+All are told to kernels as one signed distance, the clearance: metres to the nearest barrier,
+negative inside. Circles and polygons are exact (a polygon's inside is found by crossing numbers);
+a land mask becomes a grid of distances that is interpolated. A safety margin is taken off the
+clearance, so that a path of clearance zero or more keeps it.
+
+The signed distance of a union is the least of its parts' outside of all of them, and inside
+at most that; its size grows no faster than the distance travelled, so that a clearance of
+c metres frees all points within c.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fiveroute.kernels import kernel
+from fiveroute.ocean.current_grid import Region
+
+__all__ = ["Barriers", "clearance", "leg_clearance", "no_barriers"]
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+class Barriers(NamedTuple):
+    """Barriers as kernels need them.
+
+    Parameters
+    ----------
+    circles
+        Centre and radius in metres, shape (c, 3).
+    corners
+        Corners of all polygons, one polygon after the other, in metres, shape (k, 2).
+    first
+        Where each polygon's corners begin, and k at the end, shape (p + 1,).
+    land
+        Signed distance to the land of a mask in metres at the points of a regular grid, rows to
+        the north and columns to the east; shape (0, 0) where there is none.
+    land_west, land_south, land_step
+        Position of that grid's first column and row, and its spacing, in metres.
+    west, south, east, north
+        The rectangle that paths must not leave; infinite where they may.
+    margin
+        Safety margin in metres.
+    """
+
+    circles: Floats
+    corners: Floats
+    first: Integers
+    land: Floats
+    land_west: float
+    land_south: float
+    land_step: float
+    west: float
+    south: float
+    east: float
+    north: float
+    margin: float
+
+    @property
+    def is_open(self) -> bool:
+        """Whether there is no barrier at all but the rectangle."""
+        return not (len(self.circles) or len(self.corners) or self.land.size)
+
+
+def no_barriers(region: Region | None = None) -> Barriers:
+    """Open water, within a rectangle if one is given."""
+    return Barriers(
+        np.zeros((0, 3)),
+        np.zeros((0, 2)),
+        np.zeros(1, dtype=np.int64),
+        np.zeros((0, 0)),
+        0.0,
+        0.0,
+        1.0,
+        *(region or (-math.inf, -math.inf, math.inf, math.inf)),
+        0.0,
+    )
+
+
+@kernel
+def clearance(barriers: Barriers, x: float, y: float) -> float:
+    """Signed distance to the nearest barrier, less the margin, in metres."""
+    return leg_clearance(barriers, x, y, x, y)
+
+
+@kernel
+def leg_clearance(barriers: Barriers, x0: float, y0: float, x1: float, y1: float) -> float:
+    """Least clearance along a straight leg in metres: exact where positive, else not above 0.
+
+    Against the land of a mask it is taken at points a quarter of the mask's spacing apart.
+    """
+    least = min(
+        min(x0, x1) - barriers.west,
+        barriers.east - max(x0, x1),
+        min(y0, y1) - barriers.south,
+        barriers.north - max(y0, y1),
+    )
+    for k in range(len(barriers.circles)):
+        x, y, radius = barriers.circles[k]
+        least = min(least, _distance(x, y, x0, y0, x1, y1) - radius - barriers.margin)
+    for k in range(len(barriers.first) - 1):
+        least = min(least, _polygon_clearance(barriers, k, x0, y0, x1, y1) - barriers.margin)
+    if barriers.land.size:
+        least = min(least, _land_clearance(barriers, x0, y0, x1, y1) - barriers.margin)
+    return least
+
+
+@kernel
+def _polygon_clearance(
+    barriers: Barriers, k: int, x0: float, y0: float, x1: float, y1: float
+) -> float:
+    """Distance of a leg to a polygon, negative where it begins inside, 0 where it enters."""
+    first, last = barriers.first[k], barriers.first[k + 1]
+    least, inside = math.inf, False
+    xa, ya = barriers.corners[last - 1]
+    for corner in range(first, last):
+        xb, yb = barriers.corners[corner]
+        least = min(least, _distance_of_legs(xa, ya, xb, yb, x0, y0, x1, y1))
+        if (ya > y0) != (yb > y0) and x0 < xa + (xb - xa) * (y0 - ya) / (yb - ya):
+            inside = not inside
+        xa, ya = xb, yb
+    return -least if inside else least
+
+
+@kernel
+def _land_clearance(barriers: Barriers, x0: float, y0: float, x1: float, y1: float) -> float:
+    parts = max(math.ceil(4.0 * math.hypot(x1 - x0, y1 - y0) / barriers.land_step), 1)
+    least = math.inf
+    for part in range(parts + 1):
+        share = part / parts
+        least = min(least, _land_at(barriers, x0 + share * (x1 - x0), y0 + share * (y1 - y0)))
+    return least
+
+
+@kernel
+def _land_at(barriers: Barriers, x: float, y: float) -> float:
+    """Distance to land by bilinear interpolation; beyond the grid that at its edge."""
+    rows, columns = barriers.land.shape
+    across = min(max((x - barriers.land_west) / barriers.land_step, 0.0), columns - 1.0)
+    up = min(max((y - barriers.land_south) / barriers.land_step, 0.0), rows - 1.0)
+    j, i = min(int(across), columns - 2), min(int(up), rows - 2)
+    s, r = across - j, up - i
+    south = (1.0 - s) * barriers.land[i, j] + s * barriers.land[i, j + 1]
+    north = (1.0 - s) * barriers.land[i + 1, j] + s * barriers.land[i + 1, j + 1]
+    distance: float = (1.0 - r) * south + r * north
+    return distance
+
+
+@kernel
+def _distance(x: float, y: float, x0: float, y0: float, x1: float, y1: float) -> float:
+    """Distance of a point from a leg, which may be a point itself."""
+    east, north = x1 - x0, y1 - y0
+    squared = east * east + north * north
+    share = 0.0
+    if squared > 0.0:
+        share = min(max(((x - x0) * east + (y - y0) * north) / squared, 0.0), 1.0)
+    return math.hypot(x - x0 - share * east, y - y0 - share * north)
+
+
+@kernel
+def _distance_of_legs(
+    xa: float, ya: float, xb: float, yb: float, x0: float, y0: float, x1: float, y1: float
+) -> float:
+    """Distance of two legs, 0 where they cross."""
+    side0 = (xb - xa) * (y0 - ya) - (yb - ya) * (x0 - xa)
+    side1 = (xb - xa) * (y1 - ya) - (yb - ya) * (x1 - xa)
+    side_a = (x1 - x0) * (ya - y0) - (y1 - y0) * (xa - x0)
+    side_b = (x1 - x0) * (yb - y0) - (y1 - y0) * (xb - x0)
+    if side0 * side1 < 0.0 and side_a * side_b < 0.0:
+        return 0.0
+    return min(
+        _distance(x0, y0, xa, ya, xb, yb),
+        _distance(x1, y1, xa, ya, xb, yb),
+        _distance(xa, ya, x0, y0, x1, y1),
+        _distance(xb, yb, x0, y0, x1, y1),
+    )
