@@ -1,1 +1,1 @@
-"""Time-optimal paths between two points: differential evolution, and the references it is held to."""
+"""Time-optimal paths between two points, and the references that they are held to."""
