@@ -32,9 +32,9 @@ _CONFIG: Any = numba.config
 
 
 def kernel(function: F) -> F:
-    """Compile to machine code on first use, without Python objects, cached on disk."""
+    """Compile to machine code on first use, without Python objects or the lock, kept on disk."""
     with _cached_in(_cache_folder(function.__module__)):
-        return cast(F, numba.njit(cache=True, error_model="numpy")(function))
+        return cast(F, numba.njit(cache=True, error_model="numpy", nogil=True)(function))
 
 
 @cache
