@@ -325,13 +325,18 @@ class Instance:
         endurance = self.fleet.endurance
         return len(endurance) if isinstance(endurance, tuple) else self.fleet.size
 
-    def problem(self, fleet_size: int | None = None) -> TeamOrienteering:
-        """The combinatorial problem in still water.
+    def problem(
+        self, fleet_size: int | None = None, travel: NDArray[np.float64] | None = None
+    ) -> TeamOrienteering:
+        """The combinatorial problem.
 
         Parameters
         ----------
         fleet_size
             Number of AUVs; None takes that of the instance.
+        travel
+            Leg times in seconds, shape (n + 2, n + 2), infinite where a leg cannot be sailed, which
+            becomes a time beyond every budget; None takes straight legs in still water.
 
         Raises
         ------
@@ -353,13 +358,16 @@ class Instance:
                 field="fleet size",
                 value=size,
             )
-        travel, service = self.travel, self.service_times
+        legs, service = self.travel if travel is None else travel, self.service_times
         if endurance is None:
+            sailed = legs if travel is None else np.where(np.isinf(legs), 0.0, legs)
             with np.errstate(over="ignore"):
-                endurance = float(travel.max(axis=1).sum() + service.sum()) or 1.0
+                endurance = float(sailed.max(axis=1).sum() + service.sum()) or 1.0
         budgets = endurance if isinstance(endurance, tuple) else (endurance,) * size
+        if travel is not None:
+            legs = np.where(np.isinf(travel), 2.0 * max(budgets) + 1.0, travel)
         data = _at_nodes([node.data for node in self.nodes])
-        return TeamOrienteering(travel, service, data, budgets)
+        return TeamOrienteering(legs, service, data, budgets)
 
 
 def _at_nodes(values: list[float]) -> NDArray[np.float64]:

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
 from fiveroute.heuristics.fleet_search import fleet_search
@@ -86,6 +87,7 @@ class MissionPlan:
 def plan_mission(
     instance: Instance,
     *,
+    travel: NDArray[np.float64] | None = None,
     fleet_size: int | None = None,
     allocation: Allocation = "giant-route",
     search: Search = "fleet",
@@ -102,7 +104,10 @@ def plan_mission(
     Parameters
     ----------
     instance
-        The mission; its currents are not considered.
+        The mission.
+    travel
+        Leg times in its ocean in seconds, shape (n + 2, n + 2), from tier 3, see
+        `fiveroute.tiers.pathing`; None sails straight lines in still water.
     fleet_size
         Number of AUVs; None takes that of the instance, or else estimates it.
     allocation
@@ -140,7 +145,7 @@ def plan_mission(
 
     # Tier 1: a giant route, and from it the size of the fleet.
     until = steps.begin("giant route", _END_OF_GIANT_ROUTE[search])
-    tier1 = preplan(instance, fleet_size, until, rng=for_tours)
+    tier1 = preplan(instance, fleet_size, until, travel=travel, rng=for_tours)
     problem, routing = tier1.problem, None
     if is_proved_infeasible(problem):
         result = Result.infeasible(method=search, seconds=steps.clock.seconds)
@@ -156,7 +161,7 @@ def plan_mission(
             points=instance.points,
             rng=for_starts,
         )
-        sampled = _sampled(instance, samples, quantile, for_routes)
+        sampled = _sampled(instance, problem.travel, samples, quantile, for_routes)
         how = replace(effort.search, literal=literal, sampled=sampled)
         routing = best_routing(problem, starts, how, rng=for_routes, clock=until.start())
         plan = None if routing is None else routing.plan
@@ -212,19 +217,22 @@ class _Steps:
 
 
 def _sampled(
-    instance: Instance, samples: int, quantile: float | None, rng: np.random.Generator
+    instance: Instance,
+    travel: NDArray[np.float64],
+    samples: int,
+    quantile: float | None,
+    rng: np.random.Generator,
 ) -> SampledLegs | None:
     """Draw the leg times for S-GGARP; None for planned times."""
     if not samples:
         return None
-    travel = instance.travel
     if samples * travel.size > _MOST_SAMPLED_LEGS:
         raise InputError(
             f"so many samples of {travel.size} legs do not fit into memory; take fewer samples",
             field="samples",
             value=samples,
         )
-    lengths_km = travel * (instance.fleet.speed / 1000.0)
+    lengths_km = instance.travel * (instance.fleet.speed / 1000.0)
     legs = sample_legs(travel, lengths_km, instance.uncertainty, samples, rng)
     return SampledLegs(legs, RouteStatistic(quantile))
 

@@ -7,10 +7,13 @@ it is never taken for a plan of another instance.
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import fields
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import ConfigDict, Field, NonNegativeFloat
 from pydantic.dataclasses import dataclass
 
@@ -29,11 +32,16 @@ from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result, Status
 
+if TYPE_CHECKING:
+    from fiveroute.paths.leg_table import LegTable
+
 __all__ = ["TAG", "PlanFile", "read_plan", "write_plan"]
 
 TAG = "fiveroute-plan/1"
 
 _STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+
+_Path = Annotated[tuple[tuple[float, float], ...], Field(min_length=2)]
 
 
 @dataclass(frozen=True, slots=True, config=_STRICT)
@@ -56,6 +64,9 @@ class PlanFile:
         Proven upper bound on the collected data; None where none was computed.
     method, seed, version
         How the plan was found: method, its seed (None without one), fiveroute's version.
+    paths
+        For every route the waypoints (x, y) in metres of its legs, from the start to the
+        destination; None for straight lines in still water.
     """
 
     instance: Instance
@@ -67,6 +78,7 @@ class PlanFile:
     method: str
     seed: int | None
     version: str
+    paths: tuple[tuple[_Path, ...], ...] | None = None
 
     def __post_init__(self) -> None:
         if len(self.durations) != len(self.routes):
@@ -75,9 +87,21 @@ class PlanFile:
                 field="durations",
                 value=len(self.durations),
             )
+        if self.paths is not None and len(self.paths) != len(self.routes):
+            raise InputError(
+                f"must have {len(self.routes)} entries, one for every route",
+                field="paths",
+                value=len(self.paths),
+            )
 
     @classmethod
-    def of(cls, instance: Instance, problem: TeamOrienteering, result: Result) -> PlanFile:
+    def of(
+        cls,
+        instance: Instance,
+        problem: TeamOrienteering,
+        result: Result,
+        legs: LegTable | None = None,
+    ) -> PlanFile:
         """A method's plan for an instance.
 
         Parameters
@@ -88,6 +112,8 @@ class PlanFile:
             The problem that was solved; its leg times give the durations.
         result
             A result that has a plan.
+        legs
+            Where its paths are; None for straight lines in still water.
         """
         if result.plan is None or result.objective is None:
             raise InputError("there is no plan to write", field="status", value=str(result.status))
@@ -103,7 +129,23 @@ class PlanFile:
             method=result.method,
             seed=result.seed,
             version=fiveroute.__version__,
+            paths=None
+            if legs is None
+            else tuple(
+                tuple(
+                    tuple(map(tuple, legs.track(tail, head).tolist()))
+                    for tail, head in itertools.pairwise((0, *route, problem.destination))
+                )
+                for route in result.plan.routes
+            ),
         )
+
+    @property
+    def tracks(self) -> list[list[NDArray[np.float64]]] | None:
+        """The paths as arrays, shape (k, 2) each."""
+        if self.paths is None:
+            return None
+        return [[np.array(path, dtype=np.float64) for path in paths] for paths in self.paths]
 
     @property
     def plan(self) -> Plan:
@@ -189,7 +231,7 @@ def write_plan(plan: PlanFile, path: Path, force: bool = False, source: Path | N
         File that the instance comes from; names of files in it are relative to it.
     """
     instance = plan.instance if source is None else relocated(plan.instance, source, path)
-    document = {
+    document: dict[str, Any] = {
         "format": TAG,
         "instance": instance_document(instance),
         "instance_hash": instance_hash(instance),
@@ -202,4 +244,6 @@ def write_plan(plan: PlanFile, path: Path, force: bool = False, source: Path | N
         "seed": plan.seed,
         "version": plan.version,
     }
+    if plan.paths is not None:
+        document["paths"] = plan.paths
     write_text_atomically(path, layout(document) + "\n", force)

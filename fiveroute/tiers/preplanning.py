@@ -103,6 +103,7 @@ def preplan(
     fleet_size: int | None = None,
     limits: Limits | None = None,
     *,
+    travel: NDArray[np.float64] | None = None,
     rng: np.random.Generator,
 ) -> Preplan:
     """Giant routes and the size of the fleet, lines 2 to 4 of Algorithm 1.
@@ -116,6 +117,8 @@ def preplan(
         two, as the paper demands, but one where endurance is unlimited.
     limits
         When to stop; None leaves it to the search itself.
+    travel
+        Leg times in the ocean in seconds, see `Instance.problem`; None sails straight lines.
     rng
         Random numbers.
 
@@ -128,7 +131,7 @@ def preplan(
     from fiveroute.heuristics.giant_route import giant_routes
 
     stated = instance.fleet_size if fleet_size is None else fleet_size
-    problem = instance.problem(1 if stated is None else stated)  # line 1
+    problem = instance.problem(1 if stated is None else stated, travel)  # line 1
     routes = giant_routes(problem, limits or Limits(), rng=rng)  # line 2
     least = 1 if instance.fleet.endurance is None else 2
     try:
@@ -138,7 +141,7 @@ def preplan(
             raise
         return Preplan(problem, routes, None)
     if stated is None:
-        problem = instance.problem(estimate.size)
+        problem = instance.problem(estimate.size, travel)
     return Preplan(problem, routes, estimate)
 
 
