@@ -28,6 +28,7 @@ from fiveroute.problem import TeamOrienteering
 
 __all__ = [
     "MAX_FLEET",
+    "TURNING_RADIUS",
     "Circle",
     "Currents",
     "Fleet",
@@ -44,6 +45,9 @@ __all__ = [
 
 MAX_FLEET = 10_000
 """Most AUVs in a fleet: a slip of the keyboard must not fill the memory."""
+
+TURNING_RADIUS = 10.0
+"""Least radius in metres of a turn of a torpedo-shaped AUV two metres long."""
 
 _STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
 
@@ -102,11 +106,14 @@ class Fleet:
         Speed through the water in metres per second.
     endurance
         T_max in seconds, one number for all AUVs or one for each; None is unlimited.
+    turning_radius
+        Least radius of a turn in metres.
     """
 
     size: Annotated[int, Field(ge=1, le=MAX_FLEET)] | None
     speed: PositiveFloat
     endurance: _Endurance | None
+    turning_radius: NonNegativeFloat = TURNING_RADIUS
 
 
 @dataclass(frozen=True, slots=True, config=_STRICT)
@@ -173,11 +180,20 @@ _Obstacle = Annotated[
 
 @dataclass(frozen=True, slots=True, config=_STRICT)
 class Ocean:
-    """Currents, obstacles and land."""
+    """Currents, obstacles and land.
+
+    Parameters
+    ----------
+    currents, obstacles, land
+        See their classes; land is to be avoided like an obstacle.
+    margin
+        Distance in metres that paths keep from obstacles and land.
+    """
 
     currents: Currents = Currents()
     obstacles: tuple[_Obstacle, ...] = ()
     land: tuple[Polygon, ...] = ()
+    margin: NonNegativeFloat = 0.0
 
 
 @dataclass(frozen=True, slots=True, config=_STRICT)

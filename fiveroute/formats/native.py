@@ -1,8 +1,8 @@
 """The native instance file: JSON, ``"format": "fiveroute-instance/1"``.
 
 It holds everything an `Instance` knows, one node a line, and loses no bit of a number.
-Two keys go beyond local metres and straight lines, and are left out where they say
-nothing: ``metric`` (how coordinates become distances) and ``travel_times``.
+Some keys are left out where they say nothing out of the ordinary: ``metric`` (how coordinates
+become distances), ``travel_times``, the fleet's ``turning_radius`` and the ocean's ``margin``.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from pydantic import ConfigDict
 from pydantic.dataclasses import dataclass
 
 from fiveroute.formats.json_document import layout, read_document
-from fiveroute.instance import Instance
+from fiveroute.instance import TURNING_RADIUS, Instance
 
 __all__ = [
     "TAG",
@@ -71,6 +71,10 @@ def instance_document(instance: Instance) -> dict[str, Any]:
         del document["metric"]
     if instance.travel_times is None:
         del document["travel_times"]
+    if instance.fleet.turning_radius == TURNING_RADIUS:
+        del document["fleet"]["turning_radius"]
+    if instance.ocean.margin == 0.0:
+        del document["ocean"]["margin"]
     return document
 
 
