@@ -22,7 +22,7 @@ from typing import Any, TypeVar, cast
 import numba
 from numba.core import event
 
-__all__ = ["kernel", "on_compilation"]
+__all__ = ["kernel", "on_compilation", "source_digest"]
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -40,11 +40,8 @@ def kernel(function: F) -> F:
 @cache
 def _cache_folder(module: str) -> str:
     """Folder for the kernels of a module; numba's own choice if it cannot be written."""
-    digest = hashlib.sha256()
-    for name in sorted(_imported({module})):
-        digest.update(_source(name).encode())
     kept = _PACKAGE / "__pycache__"
-    folder = kept / f"kernels-{module}-{digest.hexdigest()[:16]}"
+    folder = kept / f"kernels-{module}-{source_digest(module)[:16]}"
     try:
         if not folder.is_dir():
             for stale in set(kept.glob(f"kernels-{module}-*")) - {folder}:
@@ -53,6 +50,14 @@ def _cache_folder(module: str) -> str:
     except OSError:
         return str(_CONFIG.CACHE_DIR)
     return str(folder if os.access(folder, os.W_OK) else _CONFIG.CACHE_DIR)
+
+
+def source_digest(module: str) -> str:
+    """SHA-256 of the source of a module and of all that it imports from fiveroute."""
+    digest = hashlib.sha256()
+    for name in sorted(_imported({module})):
+        digest.update(_source(name).encode())
+    return digest.hexdigest()
 
 
 def _imported(modules: set[str]) -> set[str]:

@@ -17,6 +17,7 @@ COMMANDS = {
     "solve": "Solve exactly: the best plan with a proof, or the best bound in the time given.",
     "giant-route": "One route through every node: tier 1's first step alone.",
     "gap": "Compare the planner with exact solutions or bounds, a row an instance.",
+    "path": "The fastest path between two stops in the current: tier 3 alone.",
     "verify": "Judge a plan: every violation, with its AUV, node and amount.",
     "generate": "Make scenarios: the paper's distribution and other layouts.",
     "convert": "Translate an instance from one file format to another.",

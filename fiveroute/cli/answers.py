@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -18,16 +19,19 @@ if TYPE_CHECKING:
     from fiveroute.experiments.gap_table import GapRow, GapSummary
     from fiveroute.formats.plan_file import PlanFile
     from fiveroute.mission import MissionPlan
+    from fiveroute.tiers.pathing import PlannedPath
 
 __all__ = [
     "exit_code",
     "gap_text",
     "giant_route_answer",
     "named",
+    "path_answer",
     "plan_answer",
     "print_gaps",
     "print_giant_route",
     "print_json",
+    "print_path",
     "print_routes",
     "print_table",
     "print_verdict",
@@ -101,6 +105,56 @@ def giant_route_answer(instance: Instance, result: GiantRouteResult, seed: int) 
         "seconds": result.seconds,
         "seed": seed,
     }
+
+
+def path_answer(
+    instance: Instance, ends: tuple[str, str], planned: PlannedPath, seconds: float
+) -> dict[str, Any]:
+    """The keys of `path`; a path that does not exist has no duration, and says why."""
+    path = planned.path
+    found = path.is_found
+    return {
+        "instance": instance.name,
+        "from": ends[0],
+        "to": ends[1],
+        "status": path.status.value,
+        "duration": path.duration if found else None,
+        "reference_duration": _finite(planned.reference),
+        "gap": planned.gap,
+        "waypoints": path.waypoints.tolist(),
+        "min_clearance": _finite(path.min_clearance),
+        "max_curvature": path.max_curvature if found else None,
+        "seconds": seconds,
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def print_path(answer: Mapping[str, Any]) -> None:
+    """Print a path for people."""
+    where = f"{answer['instance']}: {answer['from']} to {answer['to']}"
+    if answer["duration"] is None:
+        click.echo(f"{where} {answer['status']}")
+        return
+    click.echo(where)
+    figures = [
+        ("duration", f"{_clock(answer['duration'])} ({answer['duration']:.1f} s)"),
+        ("waypoints", str(len(answer["waypoints"]))),
+        ("tightest turn", _radius(answer["max_curvature"])),
+    ]
+    if answer["reference_duration"] is not None:
+        text = f"{answer['reference_duration']:.1f} s (gap {100 * answer['gap']:.3f} %)"
+        figures.insert(1, ("reference", text))
+    if answer["min_clearance"] is not None:
+        figures.append(("clearance", f"{answer['min_clearance']:.1f} m"))
+    for name, text in figures:
+        click.echo(f"{name:<16}{text}")
+
+
+def _radius(curvature: float) -> str:
+    return f"radius {1.0 / curvature:.0f} m" if curvature > 0.0 else "none"
 
 
 def verify_answer(

@@ -5,14 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-import click
-
 from fiveroute.errors import InputError
-from fiveroute.formats import read_instance
 from fiveroute.formats.files import require_writable
-from fiveroute.instance import Instance
 
-__all__ = ["read_mission", "require_folder", "require_output"]
+__all__ = ["require_folder", "require_output"]
 
 
 def require_output(path: Path | None, force: bool) -> None:
@@ -31,23 +27,3 @@ def require_folder(folder: Path | None, names: Iterable[str], force: bool) -> No
         raise InputError(f"cannot be a folder ({error.strerror})", file=folder) from None
     for name in names:
         require_writable(folder / name, force)
-
-
-def read_mission(path: Path, *, straight_lines: bool = True) -> Instance:
-    """Read an instance, and say so where its ocean is not planned in.
-
-    Parameters
-    ----------
-    path
-        The instance file.
-    straight_lines
-        Whether the user asked to ignore the ocean.
-    """
-    mission = read_instance(path)
-    if not straight_lines and mission.has_ocean:
-        click.echo(
-            "fiveroute: legs are straight lines in still water; the ocean of this instance "
-            "is not planned in yet (--straight-lines says so and silences this)",
-            err=True,
-        )
-    return mission

@@ -30,6 +30,7 @@ __all__ = ["command"]
     metavar="CSV",
     help="Best-known values: columns instance and best_known.",
 )
+@options.straight_lines
 @options.output("Write the table to this CSV file.")
 @options.force
 @options.json_output
@@ -41,6 +42,7 @@ def command(
     exact_time_limit: float,
     seed: int,
     reference: Path | None,
+    straight_lines: bool,
     output: Path | None,
     force: bool,
     as_json: bool,
@@ -49,8 +51,9 @@ def command(
     from dataclasses import asdict
 
     from fiveroute.cli import answers
-    from fiveroute.cli.files import read_mission, require_output
+    from fiveroute.cli.files import require_output
     from fiveroute.cli.running import run
+    from fiveroute.cli.sailing import sail
     from fiveroute.experiments.gap_table import (
         GapRow,
         gap_row,
@@ -58,20 +61,28 @@ def command(
         read_reference,
         summarise,
     )
+    from fiveroute.formats import read_instance
     from fiveroute.formats.files import write_text_atomically
     from fiveroute.limits import Limits, ProgressCallback
 
     require_output(output, force)
     known = read_reference(reference) if reference else {}
-    missions = [read_mission(path) for path in instances]
+    missions = [read_instance(path) for path in instances]
 
     def rows(limits: Limits, progress: ProgressCallback | None) -> list[GapRow]:
         done: list[GapRow] = []
-        for mission in missions:
+        for mission, file in zip(missions, instances, strict=True):
             if limits.interrupt.is_set():
                 break
             row = gap_row(
-                mission,
+                sail(
+                    mission,
+                    file,
+                    limits,
+                    straight_lines=straight_lines,
+                    seed=seed,
+                    progress=progress,
+                ),
                 plan_limits=limits.within(time_limit),
                 exact_limits=limits.within(exact_time_limit),
                 seed=seed,

@@ -30,22 +30,30 @@ def command(
 ) -> None:
     """Shortest route from start to destination through all nodes of INSTANCE."""
     from fiveroute.cli import answers
-    from fiveroute.cli.files import read_mission
     from fiveroute.cli.running import run
-    from fiveroute.limits import Limits
+    from fiveroute.cli.sailing import sail
+    from fiveroute.formats import read_instance
+    from fiveroute.limits import Limits, ProgressCallback
+    from fiveroute.paths.voyage import Voyage
+    from fiveroute.result import GiantRouteResult
     from fiveroute.tiers.preplanning import find_giant_route
 
-    mission = read_mission(instance, straight_lines=straight_lines)
-    problem = mission.problem(mission.fleet_size or 1)
-    outcome = run(
-        lambda limits, progress: find_giant_route(
-            problem, limits, exact=exact, seed=seed, progress=progress
-        ),
-        Limits(time_limit),
-    )
-    answer = answers.giant_route_answer(mission, outcome.value, seed)
+    mission = read_instance(instance)
+
+    def work(limits: Limits, progress: ProgressCallback | None) -> tuple[Voyage, GiantRouteResult]:
+        clock = limits.start()
+        voyage = sail(
+            mission, instance, limits, straight_lines=straight_lines, seed=seed, progress=progress
+        )
+        problem = voyage.instance.problem(mission.fleet_size or 1, voyage.travel)
+        route = find_giant_route(problem, clock.rest(), exact=exact, seed=seed, progress=progress)
+        return voyage, route
+
+    outcome = run(work, Limits(time_limit))
+    voyage, result = outcome.value
+    answer = answers.giant_route_answer(voyage.instance, result, seed)
     if as_json:
         answers.print_json(answer)
     else:
         answers.print_giant_route(answer)
-    ctx.exit(answers.exit_code(outcome.value.status, outcome.interrupted))
+    ctx.exit(answers.exit_code(result.status, outcome.interrupted))

@@ -76,35 +76,48 @@ def command(
     as_json: bool,
 ) -> None:
     """Fleet size, routes for every AUV, completion rate and optimality gap for INSTANCE."""
+    from dataclasses import replace
+
     from fiveroute.cli import answers
-    from fiveroute.cli.files import read_mission, require_output
+    from fiveroute.cli.files import require_output
     from fiveroute.cli.running import run
+    from fiveroute.cli.sailing import completed, sail
+    from fiveroute.formats import read_instance
     from fiveroute.formats.plan_file import PlanFile, write_plan
-    from fiveroute.limits import Limits
-    from fiveroute.mission import plan_mission
+    from fiveroute.limits import Limits, ProgressCallback
+    from fiveroute.mission import MissionPlan, plan_mission
+    from fiveroute.paths.voyage import Voyage
 
     require_output(output, force)
-    mission = read_mission(instance, straight_lines=straight_lines)
-    outcome = run(
-        lambda limits, progress: plan_mission(
-            mission,
+    mission = read_instance(instance)
+
+    def work(limits: Limits, progress: ProgressCallback | None) -> tuple[Voyage, MissionPlan]:
+        clock = limits.start()
+        voyage = sail(
+            mission, instance, limits, straight_lines=straight_lines, seed=seed, progress=progress
+        )
+        planned = plan_mission(
+            voyage.instance,
+            travel=voyage.travel,
             fleet_size=fleet_size,
             allocation=allocation,
             search=search,
             bound=bound,
             samples=samples,
             quantile=quantile,
-            limits=limits,
+            limits=clock.rest(),
             seed=seed,
             progress=progress,
-        ),
-        Limits(time_limit),
-    )
-    planned = outcome.value
+        )
+        return voyage, planned
+
+    outcome = run(work, Limits(time_limit))
+    voyage, planned = outcome.value
     result = planned.result
     if output is not None and result.plan is not None:
-        write_plan(PlanFile.of(mission, planned.problem, result), output, force, source=instance)
-    answer = answers.plan_answer(planned)
+        filed = PlanFile.of(voyage.instance, planned.problem, result, voyage.legs)
+        write_plan(replace(filed, instance=mission), output, force, source=instance)
+    answer = completed(answers.plan_answer(planned), voyage)
     if as_json:
         answers.print_json(answer)
     else:

@@ -47,24 +47,37 @@ def command(
     as_json: bool,
 ) -> None:
     """Best plan for INSTANCE with a proof, or the best bound in the time given."""
+    from dataclasses import replace
+
     from fiveroute.cli import answers
-    from fiveroute.cli.files import read_mission, require_output
+    from fiveroute.cli.files import require_output
     from fiveroute.cli.running import run
+    from fiveroute.cli.sailing import completed, sail
+    from fiveroute.formats import read_instance
     from fiveroute.formats.plan_file import PlanFile, write_plan
-    from fiveroute.limits import Limits
+    from fiveroute.limits import Limits, ProgressCallback
     from fiveroute.models import solve
+    from fiveroute.paths.voyage import Voyage
+    from fiveroute.problem import TeamOrienteering
+    from fiveroute.result import Result
 
     require_output(output, force)
-    mission = read_mission(instance, straight_lines=straight_lines)
-    problem = mission.problem(fleet_size)
-    outcome = run(
-        lambda limits, progress: solve(problem, method, limits, progress=progress),
-        Limits(time_limit, gap),
-    )
-    result = outcome.value
+    mission = read_instance(instance)
+
+    def work(
+        limits: Limits, progress: ProgressCallback | None
+    ) -> tuple[Voyage, TeamOrienteering, Result]:
+        clock = limits.start()
+        voyage = sail(mission, instance, limits, straight_lines=straight_lines, progress=progress)
+        problem = voyage.instance.problem(fleet_size, voyage.travel)
+        return voyage, problem, solve(problem, method, clock.rest(), progress=progress)
+
+    outcome = run(work, Limits(time_limit, gap))
+    voyage, problem, result = outcome.value
     if output is not None and result.plan is not None:
-        write_plan(PlanFile.of(mission, problem, result), output, force, source=instance)
-    answer = answers.solve_answer(mission, problem, result)
+        filed = PlanFile.of(voyage.instance, problem, result, voyage.legs)
+        write_plan(replace(filed, instance=mission), output, force, source=instance)
+    answer = completed(answers.solve_answer(voyage.instance, problem, result), voyage)
     if as_json:
         answers.print_json(answer)
     else:

@@ -14,22 +14,31 @@ __all__ = ["command"]
 @click.command("verify")
 @options.instance
 @click.argument("plan", type=click.Path(path_type=Path))
+@options.straight_lines
 @options.json_output
 @click.pass_context
-def command(ctx: click.Context, instance: Path, plan: Path, as_json: bool) -> None:
+def command(
+    ctx: click.Context, instance: Path, plan: Path, straight_lines: bool, as_json: bool
+) -> None:
     """Judge PLAN for INSTANCE: every violation, with its AUV, node and amount.
 
-    Exit code 0 for a feasible plan, 1 for one with violations.
+    Where the instance has an ocean, the paths of the plan are sailed through it; a plan without
+    paths takes the fastest ones. Exit code 0 for a feasible plan, 1 for one with violations.
     """
     from fiveroute.check import check, check_claims
     from fiveroute.cli import answers
-    from fiveroute.cli.files import read_mission
+    from fiveroute.cli.judging import judged_legs
+    from fiveroute.formats import read_instance
     from fiveroute.formats.plan_file import read_plan
 
-    mission = read_mission(instance)
+    mission = read_instance(instance)
     filed = read_plan(plan, mission)
-    problem = mission.problem(mission.fleet_size or max(len(filed.routes), 1))
-    violations = check(problem, filed.plan)
+    travel, violations = None, []
+    if mission.has_ocean and not straight_lines:
+        travel, violations = judged_legs(mission, filed, instance.parent)
+    size = mission.fleet_size or max(len(filed.routes), 1)
+    problem = mission.problem(size, travel)
+    violations = violations + check(problem, filed.plan)
     if not violations:
         violations = check_claims(problem, filed.plan, filed.objective, filed.durations)
     answer = answers.verify_answer(mission, problem, filed, violations)

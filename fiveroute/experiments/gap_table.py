@@ -15,9 +15,9 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
 from fiveroute.errors import InputError
-from fiveroute.instance import Instance
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.mission import MissionPlan, plan_mission
+from fiveroute.paths.voyage import Voyage
 from fiveroute.result import Result, Status, is_closed, optimality_gap
 
 __all__ = ["GapRow", "GapSummary", "gap_row", "gap_table_csv", "read_reference", "summarise"]
@@ -77,7 +77,7 @@ class GapSummary:
 
 
 def gap_row(
-    instance: Instance,
+    voyage: Voyage,
     *,
     plan_limits: Limits,
     exact_limits: Limits,
@@ -89,8 +89,8 @@ def gap_row(
 
     Parameters
     ----------
-    instance
-        The instance.
+    voyage
+        The instance, and its leg times.
     plan_limits, exact_limits
         Limits of the planner, and of quick bound and exact method together.
     seed
@@ -100,7 +100,15 @@ def gap_row(
     progress
         Called as the run goes on.
     """
-    planned = plan_mission(instance, bound="none", limits=plan_limits, seed=seed, progress=progress)
+    instance = voyage.instance
+    planned = plan_mission(
+        instance,
+        travel=voyage.travel,
+        bound="none",
+        limits=plan_limits,
+        seed=seed,
+        progress=progress,
+    )
     exact = _bounded(planned, exact_limits, progress)
     value, bound = planned.result.objective, exact.bound
     known = [v for v in (value, exact.objective, (reference or {}).get(instance.name)) if v]

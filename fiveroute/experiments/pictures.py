@@ -6,6 +6,7 @@ Okabe and Ito (2008), which colour-blind readers can tell apart.
 
 from __future__ import annotations
 
+import itertools
 import secrets
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -14,16 +15,21 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle, Polygon
 from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
 from fiveroute.instance import Instance
+from fiveroute.paths.legs import Waters
 from fiveroute.plan import Route
+from fiveroute.tiers.pathing import PlannedPath
 
-__all__ = ["Panel", "completion_boxes", "route_panels", "save"]
+__all__ = ["Panel", "completion_boxes", "path_map", "route_panels", "save"]
 
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 _IDLE = "#999999"
+_LAND = "#8c6d46"
+_ARROWS = 25  # across a picture
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +50,53 @@ class Panel:
     title: str
     routes: tuple[Route, ...]
     open_ends: bool = False
+
+
+def path_map(waters: Waters, planned: PlannedPath, title: str) -> Figure:
+    """The current's speed and arrows, barriers, a path and its reference.
+
+    Distances are in kilometres; the current is that at the first time of its grid.
+    """
+    figure = Figure(figsize=(7.0, 6.0), layout="constrained")
+    axis = figure.subplots()
+    _draw_current(figure, axis, waters)
+    _draw_barriers(axis, waters)
+    track, reference = planned.path.waypoints / 1000.0, planned.reference_track / 1000.0
+    axis.plot(*reference.T, "--", color="white", linewidth=1.5, label="reference", zorder=3)
+    axis.plot(*track.T, color=_COLOURS[1], linewidth=2.0, label="path", zorder=4)
+    if len(track):
+        axis.plot(*track[0], "^", color="black", markersize=9, zorder=5)
+        axis.plot(*track[-1], "*", color="black", markersize=12, zorder=5)
+    gap = "" if planned.gap is None else f", gap {100 * planned.gap:.2f} %"
+    axis.set(title=f"{title}{gap}", xlabel="x in km", ylabel="y in km", aspect="equal")
+    legend = axis.legend(loc="upper right")
+    legend.get_frame().set_facecolor("#bbbbbb")
+    return figure
+
+
+def _draw_current(figure: Figure, axis: Axes, waters: Waters) -> None:
+    grid = waters.grid
+    u, v = np.moveaxis(grid.uv[0], -1, 0)
+    x = (grid.west + grid.step * np.arange(u.shape[1])) / 1000.0
+    y = (grid.south + grid.step * np.arange(u.shape[0])) / 1000.0
+    image = axis.pcolormesh(x, y, np.hypot(u, v), cmap="viridis", shading="gouraud", zorder=0)
+    figure.colorbar(image, ax=axis, label="speed of the current in m/s", shrink=0.8)
+    rows, columns = (slice(None, None, max(size // _ARROWS, 1)) for size in u.shape)
+    arrows = u[rows, columns], v[rows, columns]
+    axis.quiver(x[columns], y[rows], *arrows, color="white", alpha=0.6, width=2e-3, zorder=1)
+
+
+def _draw_barriers(axis: Axes, waters: Waters) -> None:
+    barriers = waters.barriers
+    for x, y, radius in barriers.circles / 1000.0:
+        axis.add_patch(Circle((x, y), radius, color=_LAND, zorder=2))
+    for first, last in itertools.pairwise(barriers.first):
+        axis.add_patch(Polygon(barriers.corners[first:last] / 1000.0, color=_LAND, zorder=2))
+    if barriers.land.size:
+        rows, columns = barriers.land.shape
+        x = (barriers.land_west + barriers.land_step * np.arange(columns)) / 1000.0
+        y = (barriers.land_south + barriers.land_step * np.arange(rows)) / 1000.0
+        axis.contourf(x, y, barriers.land, levels=[-np.inf, 0.0], colors=[_LAND], zorder=2)
 
 
 def route_panels(instance: Instance, panels: Sequence[Panel]) -> Figure:

@@ -7,7 +7,7 @@ in one array, so that a table of thousands of legs is two files' worth of number
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -69,6 +69,16 @@ class LegTable:
         if not len(places):
             raise KeyError((tail, head))
         return self.tracks[self.first[places[0]] : self.first[places[0] + 1]]
+
+    def take(self, stops: Sequence[int]) -> LegTable:
+        """The legs between some of the stops, in their order."""
+        place = {stop: k for k, stop in enumerate(stops)}
+        paths = {
+            (place[i], place[j]): (float(self.times[i, j]), self.track(i, j))
+            for i, j in self.planned()
+            if i in place and j in place
+        }
+        return LegTable.of(len(stops), paths)
 
     def unreachable(self) -> tuple[int, ...]:
         """Nodes that cannot be reached from the start, or from which nobody gets home."""

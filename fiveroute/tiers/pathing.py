@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path as File
@@ -26,15 +26,23 @@ from pathlib import Path as File
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.errors import InputError
-from fiveroute.instance import Instance
+from fiveroute.check_paths import sailing_time
+from fiveroute.instance import Circle, Instance
 from fiveroute.limits import Clock, Limits, Progress, ProgressCallback
 from fiveroute.ocean.current_grid import Region, grid_current
+from fiveroute.ocean.currents import Current, Superposition
+from fiveroute.ocean.model_current import ModelCurrent
+from fiveroute.ocean.obstacles import barriers_of, refuse_points_inside
 from fiveroute.ocean.stated import stated_current
+from fiveroute.paths.evolved_path import DifferentialEvolution, evolve_path
 from fiveroute.paths.leg_table import LegTable
 from fiveroute.paths.legs import Waters
+from fiveroute.paths.path import Path, track_path
+from fiveroute.paths.stencil import grid_path, grid_paths
+from fiveroute.paths.uniform_flow import is_straight
+from fiveroute.paths.voyage import Voyage
 
-__all__ = ["PlannedPath", "Voyage", "at_sea", "plan_legs", "plan_path", "waters_of"]
+__all__ = ["PlannedPath", "at_sea", "plan_legs", "plan_path", "waters_of"]
 
 Floats = NDArray[np.float64]
 Leg = tuple[int, int]
@@ -48,19 +56,96 @@ _LEAST_MARGIN = 500.0
 _ERROR = 2e-4
 """Error in metres per second that the interpolation of the current may have."""
 
-_REPORT_EVERY = 0.2
-"""Seconds between two reports of progress."""
+_REPORT_EVERY = 20
+"""Legs between two reports of progress."""
+
+_THOROUGH = DifferentialEvolution(population=48, evaluations=6000, halvings=3, steps=60)
+"""How hard to look for a single path."""
+
+_COARSE = 4
+"""Reach of the stencil that finds the ways round obstacles, in cells."""
+
+_INSTANT = 1e-9
+"""Seconds that a reference counts at least."""
 
 
-def waters_of(instance: Instance, folder: File | None = None) -> Waters:
-    """The ocean of an instance as path planners see it, when the mission begins.
+@dataclass(frozen=True, slots=True, eq=False)
+class PlannedPath:
+    """A path and what it is held to.
+
+    Parameters
+    ----------
+    path
+        The path of differential evolution, or the straight line.
+    reference
+        Duration of the reference path in seconds; infinite where it finds none.
+    reference_track
+        Its waypoints in metres, shape (k, 2).
+    """
+
+    path: Path
+    reference: float
+    reference_track: Floats
+
+    @property
+    def gap(self) -> float | None:
+        """(duration - reference) / reference; below 0 where the reference is beaten."""
+        if not (math.isfinite(self.reference) and self.path.is_found):
+            return None
+        return (self.path.duration - self.reference) / max(self.reference, _INSTANT)
+
+
+def at_sea(
+    instance: Instance,
+    folder: File | None = None,
+    *,
+    limits: Limits | None = None,
+    seed: int = 0,
+    progress: ProgressCallback | None = None,
+) -> Voyage:
+    """Plan all legs of a mission in its ocean.
+
+    Parameters
+    ----------
+    instance
+        The mission.
+    folder
+        Folder that the name of its file of currents is relative to.
+    limits
+        When to stop; legs that are not planned by then are straight lines in the current, or
+        the paths of the reference where these are blocked.
+    seed
+        Seed of the random numbers.
+    progress
+        Called as legs are planned.
+    """
+    if not instance.has_ocean:
+        return Voyage.straight(instance)
+    current = stated_current(instance, folder)
+    waters = waters_of(instance, current)
+    table = plan_legs(waters, current, instance.points, limits=limits, seed=seed, progress=progress)
+    lost = table.unreachable()
+    kept = [node for node in range(1, len(instance.nodes) + 1) if node not in lost]
+    return Voyage(
+        instance,
+        replace(instance, nodes=tuple(instance.nodes[node - 1] for node in kept)),
+        table.take([0, *kept, len(instance.nodes) + 1]),
+        tuple(instance.nodes[node - 1].id for node in lost),
+    )
+
+
+def waters_of(instance: Instance, current: Superposition, *, duration: float = 0.0) -> Waters:
+    """The ocean of an instance as path planners see it.
 
     Parameters
     ----------
     instance
         The instance.
-    folder
-        Folder that the name of its file of currents is relative to.
+    current
+        Its current, see `fiveroute.ocean.stated`.
+    duration
+        How long it is needed from the beginning of the mission, in seconds; 0 holds a current
+        that varies as it is when the mission begins.
 
     Raises
     ------
@@ -68,7 +153,6 @@ def waters_of(instance: Instance, folder: File | None = None) -> Waters:
         If start, destination or a node lies inside an obstacle or on land, or beyond what the
         file of currents covers.
     """
-    current, points = stated_current(instance, folder), instance.points
     region = _region(instance)
     land = None
     for part in current.parts:
@@ -77,8 +161,142 @@ def waters_of(instance: Instance, folder: File | None = None) -> Waters:
     barriers = barriers_of(instance.ocean, region, land=land)
     refuse_points_inside(instance, barriers)
     return Waters(
-        grid_current(current, region, tolerance=_ERROR),
+        grid_current(current, region, duration=duration, tolerance=_ERROR),
         barriers,
         instance.fleet.speed,
         instance.fleet.turning_radius,
     )
+
+
+def plan_path(
+    waters: Waters,
+    start: Floats,
+    goal: Floats,
+    *,
+    begin: float = 0.0,
+    seed: int = 0,
+    limits: Limits | None = None,
+) -> PlannedPath:
+    """Plan one path with all care, and its reference.
+
+    Parameters
+    ----------
+    waters
+        The ocean.
+    start, goal
+        Positions in metres, shape (2,).
+    begin
+        Time at which the path begins, in seconds.
+    seed
+        Seed of the random numbers.
+    limits
+        When to stop.
+    """
+    clock = (limits or Limits()).start()
+    reference = grid_path(waters, start, goal, begin=begin)
+    path = evolve_path(
+        waters,
+        start,
+        goal,
+        begin=begin,
+        guesses=(reference.track,) if len(reference.track) else (),
+        options=_THOROUGH,
+        rng=seed,
+        clock=clock,
+    )
+    return PlannedPath(path, reference.duration, reference.track)
+
+
+def plan_legs(
+    waters: Waters,
+    current: Current,
+    points: Floats,
+    *,
+    only: Iterable[Leg] | None = None,
+    limits: Limits | None = None,
+    seed: int = 0,
+    progress: ProgressCallback | None = None,
+) -> LegTable:
+    """Plan the legs between all stops, on all cores.
+
+    Parameters
+    ----------
+    waters
+        The ocean.
+    current
+        Its current; the times of the paths are taken in it, not on the planners' grid.
+    points
+        Positions of start, nodes and destination in metres, shape (n + 2, 2).
+    only
+        Legs that are needed; None for all but those into the start and out of the destination.
+    limits
+        When to stop; see `at_sea`.
+    seed
+        Seed of the random numbers; every leg has its own, so that its path does not depend on
+        which others are planned.
+    progress
+        Called as legs are planned.
+    """
+    clock = (limits or Limits()).start()
+    legs = _all_legs(len(points)) if only is None else sorted(only)
+    paths = {leg: track_path(waters, points[list(leg)], 0.0) for leg in legs}
+    curved = [leg for leg in legs if not is_straight(waters, *points[list(leg)])]
+    guesses = _ways_round(waters, points, [leg for leg in curved if not paths[leg].is_found], clock)
+
+    def improve(leg: Leg) -> None:
+        start, goal = points[list(leg)]
+        rng, guess = np.random.default_rng((seed, *leg)), guesses.get(leg, ())
+        if not clock.expired:
+            path = evolve_path(waters, start, goal, guesses=guess, rng=rng, clock=clock)
+            paths[leg] = path
+
+    def timed(leg: Leg) -> tuple[float, Floats]:
+        track = paths[leg].waypoints
+        return sailing_time(track, current, waters.speed), track
+
+    with ThreadPoolExecutor(os.cpu_count()) as workers:
+        for done, _ in enumerate(workers.map(improve, curved), start=1):
+            if progress is not None and done % _REPORT_EVERY == 0:
+                progress(Progress(clock.seconds, message=f"paths {done} of {len(curved)}"))
+        found = [leg for leg in legs if paths[leg].is_found]
+        return LegTable.of(len(points), dict(zip(found, workers.map(timed, found), strict=True)))
+
+
+def _all_legs(size: int) -> list[Leg]:
+    """Legs from the start, between the nodes, and to the destination."""
+    last = size - 1
+    return [(i, j) for i in range(last) for j in range(1, size) if i != j]
+
+
+def _ways_round(
+    waters: Waters, points: Floats, legs: Iterable[Leg], clock: Clock
+) -> dict[Leg, tuple[Floats, ...]]:
+    """Tracks of the reference for legs whose straight line is blocked, one search a tail."""
+    heads: dict[int, list[int]] = {}
+    for tail, head in legs:
+        heads.setdefault(tail, []).append(head)
+    tracks: dict[Leg, tuple[Floats, ...]] = {}
+    for tail, goals in heads.items():
+        if clock.expired:
+            break
+        found = grid_paths(waters, points[tail], points[goals], radius=_COARSE)
+        tracks |= {
+            (tail, head): (path.track,)
+            for head, path in zip(goals, found, strict=True)
+            if len(path.track)
+        }
+    return tracks
+
+
+def _region(instance: Instance) -> Region:
+    """Where paths may lead: around all stops and obstacles, with room for detours."""
+    corners = [instance.points]
+    for shape in instance.ocean.obstacles:
+        if isinstance(shape, Circle):
+            centre, reach = np.array([shape.x, shape.y]), shape.radius
+            corners.append(np.array([centre - reach, centre + reach]))
+        else:
+            corners.append(np.array(shape.polygon))
+    points = np.concatenate(corners)
+    diagonal = float(np.hypot(*np.ptp(points, axis=0)))
+    return Region.around(points, max(_MARGIN * diagonal, _LEAST_MARGIN))

@@ -1,0 +1,87 @@
+"""Leg tables on disk: the same ocean is not planned twice.
+
+A table is kept under a key of everything that it depends on: the current's grid, the barriers,
+the vehicle, the stops, the seed, and the source of the planners. The folder is the user's cache
+folder, or the one that FIVEROUTE_CACHE names; nothing in it is needed, and a file that cannot be
+read is planned anew. The least used tables go when there are too many.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import zipfile
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fiveroute.paths.leg_table import LegTable
+from fiveroute.paths.legs import Waters
+
+__all__ = ["cache_folder", "keep_table", "kept_table", "table_key"]
+
+_MOST = 50
+"""Tables that are kept."""
+
+
+def cache_folder() -> Path:
+    """Folder of the tables."""
+    from platformdirs import user_cache_path
+
+    named = os.environ.get("FIVEROUTE_CACHE")
+    return (Path(named) if named else user_cache_path("fiveroute")) / "legs"
+
+
+def table_key(waters: Waters, points: NDArray[np.float64], source: str, seed: int) -> str:
+    """Key of a table in hexadecimal.
+
+    Parameters
+    ----------
+    waters
+        The ocean.
+    points
+        Stops in metres, shape (n + 2, 2).
+    source
+        Digest of the planners' source.
+    seed
+        Seed of the random numbers.
+    """
+    digest = hashlib.sha256(f"{source} {seed} {waters.speed} {waters.turning_radius}".encode())
+    parts: Iterable[object] = (*waters.grid, *waters.barriers, points)
+    for part in parts:
+        digest.update(np.ascontiguousarray(part).tobytes())
+        digest.update(str(np.shape(part)).encode())
+    return digest.hexdigest()
+
+
+def kept_table(key: str) -> LegTable | None:
+    """The table of a key, if it is kept."""
+    file = cache_folder() / f"{key}.npz"
+    with suppress(OSError, ValueError, KeyError, zipfile.BadZipFile), np.load(file) as kept:
+        table = LegTable(kept["times"], kept["first"], kept["legs"], kept["tracks"])
+        file.touch()
+        return table
+    return None
+
+
+def keep_table(key: str, table: LegTable) -> None:
+    """Keep a table; a folder that cannot be written keeps none."""
+    folder = cache_folder()
+    with suppress(OSError):
+        folder.mkdir(parents=True, exist_ok=True)
+        draft = folder / f"{key}.{os.getpid()}.tmp"
+        with draft.open("wb") as stream:
+            np.savez_compressed(
+                stream,
+                times=table.times,
+                first=table.first,
+                legs=table.legs,
+                tracks=table.tracks,
+            )
+        draft.replace(folder / f"{key}.npz")
+        kept = sorted(folder.glob("*.npz"), key=lambda file: file.stat().st_mtime)
+        for stale in kept[:-_MOST]:
+            stale.unlink()
