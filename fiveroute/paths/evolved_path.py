@@ -1,0 +1,256 @@
+"""Tier 3: the time-optimal path between two points by differential evolution.
+
+The path solves (23) under (21): the fastest spline from start to goal that keeps clear of all
+barriers, turns no tighter than the AUV can, and nowhere asks for more than the AUV can make good
+against the current.
+
+1. Evolution looks for the right way around, with few control points. It begins with the straight
+   line, arcs to both sides, detours on either side of every barrier that the line meets,
+   and tracks that the caller guesses.
+2. A quasi-Newton descent takes the best path to the optimum; then every span is halved, which
+   leaves the curve as it is, and the descent goes on with twice the freedom.
+3. The path becomes a dense track; what is told of it, its duration and clearance, is taken
+   anew along that track.
+
+Where no path keeps the rules there is none to hand back, and the status says what stood in its way.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fiveroute.errors import InputError
+from fiveroute.heuristics.randomness import random_state
+from fiveroute.limits import Clock, Limits
+from fiveroute.ocean.barriers import clearance
+from fiveroute.paths.differential_evolution import (
+    Population,
+    control_of,
+    evolve_adaptive,
+    evolve_classic,
+    genes_of,
+    new_population,
+)
+from fiveroute.paths.first_paths import arcs, detours
+from fiveroute.paths.legs import Waters
+from fiveroute.paths.path import Path, track_path
+from fiveroute.paths.path_cost import PathProblem
+from fiveroute.paths.polish import polish
+from fiveroute.paths.spline import (
+    fit_control,
+    gauss_table,
+    halving,
+    regular_table,
+    spline_curvature,
+    spline_points,
+    straight_control,
+)
+
+__all__ = ["DifferentialEvolution", "Variant", "evolve_path", "path_problem"]
+
+Floats = NDArray[np.float64]
+
+Variant = Literal["l-shade", "rand/1/bin"]
+
+_SLICE = 20_000  # paths looked at between two looks at the clock
+_BUFFER = 1e-4  # clearance that is planned for, as a share of the line
+_TURN_RESERVE = 1.02  # turning radius that is planned for
+_GUARDS, _WAYPOINTS = 1024, 256  # points of a path where clearance is taken; points handed back
+_CELLS_A_PART = 4.0  # grid cells to a part of the quadrature with three nodes
+_CELLS_A_SPAN, _FEWEST_SPANS, _MOST_SPANS = 10.0, 2, 6
+_REACH = 0.4  # least bound of the genes, as a share of the line
+_WEIGHTS = (0.02, 0.2, 2.0)  # of the violation, one after the other until a path keeps the rules
+
+
+@dataclass(frozen=True, slots=True)
+class DifferentialEvolution:
+    """How hard to look for a path.
+
+    Parameters
+    ----------
+    variant
+        The scheme of evolution.
+    population
+        Paths that it begins with.
+    evaluations
+        Paths that it looks at; 0 takes the best of the first ones.
+    spans
+        Spans of the spline that evolves, with one more free control point than that; None
+        takes them by the line's length in cells of the current's grid.
+    halvings
+        How often the spans are halved for the descent.
+    steps
+        Most steps of the descent between two halvings.
+    """
+
+    variant: Variant = "l-shade"
+    population: int = 24
+    evaluations: int = 720
+    spans: int | None = None
+    halvings: int = 2
+    steps: int = 30
+
+    def __post_init__(self) -> None:
+        if self.variant not in get_args(Variant):
+            rule = f"the variant is one of {', '.join(get_args(Variant))}"
+            raise InputError(rule, field="variant", value=self.variant)
+        least = {"population": 4, "evaluations": 0, "halvings": 0, "steps": 0}
+        for name, bound in least.items():
+            if getattr(self, name) < bound:
+                rule = f"this must be at least {bound}"
+                raise InputError(rule, field=name, value=getattr(self, name))
+        if self.spans is not None and self.spans < 1:
+            raise InputError("a spline has at least one span", field="spans", value=self.spans)
+
+
+def evolve_path(
+    waters: Waters,
+    start: ArrayLike,
+    goal: ArrayLike,
+    *,
+    begin: float = 0.0,
+    guesses: Sequence[Floats] = (),
+    options: DifferentialEvolution | None = None,
+    rng: np.random.Generator | int = 0,
+    clock: Clock | None = None,
+) -> Path:
+    """Find the fastest path between two points.
+
+    Parameters
+    ----------
+    waters
+        Ocean and vehicle.
+    start, goal
+        Positions in metres, shape (2,).
+    begin
+        Time of departure in seconds.
+    guesses
+        Tracks from start to goal to begin with besides others, each of shape (k, 2).
+    options
+        How hard to look.
+    rng
+        Source of randomness, or its seed: the same seed gives the same path.
+    clock
+        When to stop with the best path so far.
+
+    Raises
+    ------
+    InputError
+        If start or goal lies in a barrier.
+    """
+    options, clock = options or DifferentialEvolution(), clock or Limits().start()
+    ends = _end(waters, start, "start"), _end(waters, goal, "goal")
+    straight = track_path(waters, np.stack(ends), begin)
+    if np.array_equal(*ends):
+        return straight
+    tracks = [_joined(guess, *ends) for guess in guesses]
+    problem = path_problem(waters, *ends, begin=begin, spans=options.spans)
+    population = _evolved(problem, tracks, options, np.random.default_rng(rng), clock)
+    control = control_of(problem, population.genes[population.best])
+    found = _descended(waters, problem, control, options, clock)
+    others = [track_path(waters, track, begin) for track in tracks]
+    return min([found, straight, *others], key=lambda path: path.duration)
+
+
+def path_problem(
+    waters: Waters, start: Floats, goal: Floats, *, begin: float = 0.0, spans: int | None = None
+) -> PathProblem:
+    """State the problem for kernels, with tables as fine as the current and the line ask for."""
+    length = float(np.hypot(*(goal - start)))
+    cells = length / waters.grid.step
+    spans = spans or min(max(math.ceil(cells / _CELLS_A_SPAN), _FEWEST_SPANS), _MOST_SPANS)
+    return PathProblem(
+        waters.grid,
+        waters.barriers,
+        waters.speed,
+        _TURN_RESERVE * waters.turning_radius,
+        begin,
+        _BUFFER * length,
+        gauss_table(spans, max(math.ceil(cells / _CELLS_A_PART / spans), 1)),
+        regular_table(spans, max(_GUARDS // spans, 2)),
+        straight_control(start, goal, spans),
+    )
+
+
+def _evolved(
+    problem: PathProblem,
+    guesses: Sequence[Floats],
+    options: DifferentialEvolution,
+    rng: np.random.Generator,
+    clock: Clock,
+) -> Population:
+    """Step 1: let paths evolve from first ones."""
+    start, goal = problem.straight[0], problem.straight[-1]
+    spans = len(problem.straight) - 3
+    ways = detours(problem.barriers, start, goal, 2.0 * problem.buffer)
+    tracks = [*guesses, *itertools.islice(arcs(start, goal), 1), *ways, *arcs(start, goal)]
+    seeds = np.stack([genes_of(problem, fit_control(track, spans)) for track in tracks])
+    reach = np.maximum(1.5 * np.abs(seeds).max(axis=0), _REACH)
+    size = max(options.population, len(seeds))
+    population = new_population(seeds, reach, size, max(options.evaluations, size), rng)
+    evolve = evolve_adaptive if options.variant == "l-shade" else evolve_classic
+    random = random_state(rng)
+    while True:
+        evolve(problem, population, random, _SLICE)
+        if population.is_spent or clock.expired:
+            return population
+
+
+def _descended(
+    waters: Waters,
+    problem: PathProblem,
+    control: Floats,
+    options: DifferentialEvolution,
+    clock: Clock,
+) -> Path:
+    """Steps 2 and 3: the optimum near a path, on ever more spans, as a dense track."""
+    found = _dense(waters, problem, control)
+    for halved in range(options.halvings + 1):
+        if clock.expired:
+            return found
+        if halved:
+            spans = len(control) - 3
+            control = halving(spans) @ control
+            problem = path_problem(
+                waters, control[0], control[-1], begin=problem.begin, spans=2 * spans
+            )
+        polish(problem, control, _WEIGHTS[0], options.steps)
+    for weight in _WEIGHTS[1:]:
+        path = _dense(waters, problem, control)
+        if path.is_found or clock.expired:
+            break
+        polish(problem, control, weight, options.steps)
+    return min([path, found], key=lambda path: path.duration)
+
+
+def _dense(waters: Waters, problem: PathProblem, control: Floats) -> Path:
+    """The dense track of a spline, and what is true of it."""
+    spans = len(control) - 3
+    track = spline_points(regular_table(spans, max(_WAYPOINTS // spans, 1)), control)
+    track[0], track[-1] = control[0], control[-1]
+    curvature = float(np.abs(spline_curvature(problem.guards, control)).max())
+    return track_path(waters, track, problem.begin, curvature)
+
+
+def _end(waters: Waters, position: ArrayLike, name: str) -> Floats:
+    """An end of the path, if it is a place in open water."""
+    place = np.array(position, dtype=np.float64)
+    if place.shape != (2,) or not np.isfinite(place).all():
+        raise InputError("an end of a path is two finite numbers", field=name, value=position)
+    spare = clearance(waters.barriers, place[0], place[1])
+    if spare < 0.0:
+        rule = f"it lies {-spare:.1f} m inside a barrier or its margin; move it into open water"
+        raise InputError(rule, field=name, value=place.tolist())
+    return place
+
+
+def _joined(guess: Floats, start: Floats, goal: Floats) -> Floats:
+    """A guessed track with the right ends."""
+    return np.concatenate([start[None, :], guess[1:-1], goal[None, :]])
