@@ -158,6 +158,9 @@ class LambVortices:
             raise InputError("every vortex needs a centre, a circulation and a radius")
         if not (np.asarray(self.radius) > 0.0).all():
             raise InputError("a vortex needs a positive radius", field="radius")
+        for name in ("x", "y", "circulation", "radius"):
+            if not np.isfinite(getattr(self, name)).all():
+                raise InputError("all must be finite numbers; correct them", field=name)
 
     @property
     def is_steady(self) -> bool:
@@ -214,6 +217,10 @@ class DoubleGyre:
     omega: float = 0.0
     x0: float = 0.0
     y0: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not self.size > 0.0:
+            raise InputError("a gyre needs a positive size", field="size", value=self.size)
 
     @property
     def is_steady(self) -> bool:
