@@ -26,6 +26,8 @@ __all__ = ["Barriers", "clearance", "leg_clearance", "no_barriers"]
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
+_CONTACT = 1e-6  # metres to a polygon that count as contact, whatever the rounding
+
 
 class Barriers(NamedTuple):
     """Barriers as kernels need them.
@@ -91,8 +93,9 @@ def clearance(barriers: Barriers, x: float, y: float) -> float:
 
 @kernel
 def leg_clearance(barriers: Barriers, x0: float, y0: float, x1: float, y1: float) -> float:
-    """Least clearance along a straight leg in metres: exact where positive, else not above 0.
+    """Least clearance along a straight leg in metres, exact where it is positive.
 
+    A leg that touches a polygon or goes through it has a negative clearance, whatever the margin.
     Against the land of a mask it is taken at points a quarter of the mask's spacing apart.
     """
     least = min(
@@ -115,7 +118,7 @@ def leg_clearance(barriers: Barriers, x0: float, y0: float, x1: float, y1: float
 def _polygon_clearance(
     barriers: Barriers, k: int, x0: float, y0: float, x1: float, y1: float
 ) -> float:
-    """Distance of a leg to a polygon, negative where it begins inside, 0 where it enters."""
+    """Distance of a leg to a polygon; negative, if only just, where it touches or is inside."""
     first, last = barriers.first[k], barriers.first[k + 1]
     least, inside = math.inf, False
     xa, ya = barriers.corners[last - 1]
@@ -125,7 +128,7 @@ def _polygon_clearance(
         if (ya > y0) != (yb > y0) and x0 < xa + (xb - xa) * (y0 - ya) / (yb - ya):
             inside = not inside
         xa, ya = xb, yb
-    return -least if inside else least
+    return -max(least, _CONTACT) if inside or least < _CONTACT else least
 
 
 @kernel
