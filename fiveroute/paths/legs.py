@@ -8,7 +8,9 @@ the sideways components cancel; what is left along the track is the ground speed
 
 if |c x e| < V and g > 0. Otherwise the leg cannot be sailed in this direction. The time along a
 path is the integral of ds / g, equation (22), here by Gauss and Legendre's rule with three points
-on every piece as long as a cell of the current's grid.
+on every piece as long as a cell of the current's grid, or as what the AUV sails through the water
+between two times of it. Within a piece it meets the current at the times that its ground speed at
+the end of the last piece suggests.
 """
 
 from __future__ import annotations
@@ -83,8 +85,13 @@ def leg_time(
     if length == 0.0:
         return 0.0
     east, north = (x1 - x0) / length, (y1 - y0) / length
-    pieces = max(math.ceil(length / grid.step - 1e-9), 1)
-    piece, elapsed, made_good = length / pieces, 0.0, speed
+    u, v = velocity(grid, x0, y0, t)
+    made_good = ground_speed(u, v, east, north, speed)
+    if made_good == 0.0:
+        return math.inf
+    longest = grid.step if grid.uv.shape[0] == 1 else min(grid.step, speed * grid.every)
+    pieces = max(math.ceil(length / longest - 1e-9), 1)
+    piece, elapsed = length / pieces, 0.0
     for k in range(pieces):
         begun, pace = t + elapsed, piece / made_good
         for node, weight in ((0.5 - _NODE, 5.0), (0.5, 8.0), (0.5 + _NODE, 5.0)):
