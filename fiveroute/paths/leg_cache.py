@@ -26,6 +26,9 @@ __all__ = ["cache_folder", "keep_table", "kept_table", "table_key"]
 _MOST = 50
 """Tables that are kept."""
 
+_SPOILT = (OSError, EOFError, ValueError, KeyError, zipfile.BadZipFile)
+"""What reading a file that is none may end in."""
+
 
 def cache_folder() -> Path:
     """Folder of the tables."""
@@ -60,7 +63,7 @@ def table_key(waters: Waters, points: NDArray[np.float64], source: str, seed: in
 def kept_table(key: str) -> LegTable | None:
     """The table of a key, if it is kept."""
     file = cache_folder() / f"{key}.npz"
-    with suppress(OSError, ValueError, KeyError, zipfile.BadZipFile), np.load(file) as kept:
+    with suppress(*_SPOILT), file.open("rb") as stream, np.load(stream) as kept:
         table = LegTable(kept["times"], kept["first"], kept["legs"], kept["tracks"])
         file.touch()
         return table

@@ -167,8 +167,10 @@ def _longest_step(control: Floats) -> float:
     last, most = len(control) - 2, 1e-9
     for i in range(last + 1):
         knots = min(3, i + 1, last - i + 1, last - 1)
-        step = 3.0 / knots * math.hypot(
-            control[i + 1, 0] - control[i, 0], control[i + 1, 1] - control[i, 1]
+        step = (
+            3.0
+            / knots
+            * math.hypot(control[i + 1, 0] - control[i, 0], control[i + 1, 1] - control[i, 1])
         )
         most = max(most, step)
     return most

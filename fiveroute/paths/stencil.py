@@ -198,5 +198,7 @@ def _track(labels: Labels, lattice: Lattice, start: Floats, goals: Floats, point
     track = [goals[point - points - 1]]
     while (point := int(labels.parent[point])) < points:
         row, column = divmod(point, lattice.columns)
-        track.append(np.array([lattice.west, lattice.south]) + lattice.step * np.array([column, row]))
+        track.append(
+            np.array([lattice.west, lattice.south]) + lattice.step * np.array([column, row])
+        )
     return np.array([*track, start][::-1])

@@ -233,9 +233,7 @@ def extremal(task: _Task, heading: float, duration: float, steps: int) -> Floats
 
 
 @kernel
-def _rates(
-    task: _Task, x: float, y: float, heading: float, t: float
-) -> tuple[float, float, float]:
+def _rates(task: _Task, x: float, y: float, heading: float, t: float) -> tuple[float, float, float]:
     """Velocity over ground, and Zermelo's rate of turn."""
     d = _DIFFERENCE * task.grid.step
     u, v = velocity(task.grid, x, y, t)
