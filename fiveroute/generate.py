@@ -31,6 +31,7 @@ from fiveroute.instance import (
     Uncertainty,
     Vortex,
 )
+from fiveroute.ocean.random_vortices import EFFECTIVE, PRINTED, VortexKind, draw_vortices, normal
 
 __all__ = [
     "CURRENTS",
@@ -58,14 +59,8 @@ DEFAULT_UNCERTAINTY = Uncertainty(
 """The paper gives no figures for equation (12); with these, a fleet without coordination
 loses 5 to 10 % of its data, as in the paper."""
 
-CURRENTS = {
-    "effective": (NormalDist(0.0, 1000.0), NormalDist(800.0, 100.0)),
-    "printed": (NormalDist(0.0, 50.0), NormalDist(80.0, 10.0)),
-    "none": None,
-}
-"""Distributions of circulation (m2/s) and core radius (m) of the vortices. As printed, the
-field is too weak to matter (0.016 m/s in the root mean square); the effective one has
-0.19 m/s."""
+CURRENTS = {"effective": EFFECTIVE, "printed": PRINTED, "none": None}
+"""What the vortices are like: as printed, the field is too weak to matter."""
 
 VORTICES = 20
 """Number of vortices, Section IV-A."""
@@ -115,8 +110,8 @@ def paper_scenario(
         raise InputError(f"must be one of {', '.join(CURRENTS)}", field="currents", value=currents)
     _require_sizes(nodes, seed, fleet_size)
     where, data, field = _streams(seed, 3)
-    distributions = CURRENTS[currents]
-    vortices = () if distributions is None else _vortices(field, *distributions)
+    kind = CURRENTS[currents]
+    vortices = () if kind is None else _vortices(kind, field)
     return Instance(
         name=f"scenario-{seed:02d}",
         nodes=_nodes(_uniform(nodes, where), data),
@@ -185,7 +180,7 @@ def _clustered(nodes: int, rng: np.random.Generator) -> Positions:
     """Around a few centres, normally distributed, cut off at the border."""
     clusters = max(1, round(0.5 * math.sqrt(nodes)))
     centres = SIDE * (0.1 + 0.8 * rng.random((clusters, 2)))
-    spread = np.array([_normal(u, NormalDist(0.0, 0.05 * SIDE)) for u in rng.random(2 * nodes)])
+    spread = np.array([normal(u, NormalDist(0.0, 0.05 * SIDE)) for u in rng.random(2 * nodes)])
     chosen = np.arange(nodes) % clusters
     positions: Positions = np.clip(centres[chosen] + spread.reshape(nodes, 2), 0.0, SIDE)
     return positions
@@ -237,24 +232,11 @@ def _nodes(positions: Positions, rng: np.random.Generator) -> tuple[Node, ...]:
     )
 
 
-def _vortices(
-    rng: np.random.Generator, circulation: NormalDist, radius: NormalDist
-) -> tuple[Vortex, ...]:
-    """Vortices with uniform centres; a core radius is at least one metre."""
-    return tuple(
-        Vortex(
-            x=round(SIDE * x, 3),
-            y=round(SIDE * y, 3),
-            circulation=round(_normal(u, circulation), 3),
-            radius=max(round(_normal(v, radius), 3), 1.0),
-        )
-        for x, y, u, v in rng.random((VORTICES, 4)).tolist()
-    )
-
-
-def _normal(uniform: float, distribution: NormalDist) -> float:
-    """A normal number out of a uniform one in [0, 1)."""
-    return distribution.inv_cdf(min(max(uniform, 1e-16), 1.0 - 1e-16))
+def _vortices(kind: VortexKind, rng: np.random.Generator) -> tuple[Vortex, ...]:
+    """Vortices with uniform centres, all rounded."""
+    drawn = draw_vortices(kind, VORTICES, (0.0, 0.0, SIDE, SIDE), rng)
+    parts = np.array([drawn.x, drawn.y, drawn.circulation, drawn.radius]).T.tolist()
+    return tuple(Vortex(*(round(number, 3) for number in part)) for part in parts)
 
 
 def _with_endurance(instance: Instance, share: float) -> Instance:
