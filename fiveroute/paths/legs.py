@@ -85,11 +85,13 @@ def leg_time(
     if length == 0.0:
         return 0.0
     east, north = (x1 - x0) / length, (y1 - y0) / length
-    u, v = velocity(grid, x0, y0, t)
-    made_good = ground_speed(u, v, east, north, speed)
-    if made_good == 0.0:
-        return math.inf
-    longest = grid.step if grid.uv.shape[0] == 1 else min(grid.step, speed * grid.every)
+    made_good, longest = speed, grid.step
+    if grid.uv.shape[0] > 1:
+        u, v = velocity(grid, x0, y0, t)
+        made_good = ground_speed(u, v, east, north, speed)
+        if made_good == 0.0:
+            return math.inf
+        longest = min(longest, speed * grid.every)
     pieces = max(math.ceil(length / longest - 1e-9), 1)
     piece, elapsed = length / pieces, 0.0
     for k in range(pieces):
