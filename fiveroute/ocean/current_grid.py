@@ -38,6 +38,7 @@ _FINE = 200  # grid points along an axis
 _REFINEMENTS = 4
 _FEWEST_TIMES, _MOST_TIMES = 13, 193  # grid times over a mission in a current that varies
 _PROBES = 50  # points along an axis where the change in time is looked at
+_BETWEEN = 0.382  # share between two times, irrational as no current's period hides from it
 _SHARES = 0.5 + math.sqrt(3.0) / 6.0 * np.array([-1.0, 0.0, 1.0])  # of a cell, where errors peak
 
 
@@ -127,6 +128,7 @@ def grid_current(
     """
     width = max(region.east - region.west, region.north - region.south, 1.0)
     times = _grid_times(current, region, duration, tolerance)
+    some_times = times[:: len(times) // _FEWEST_TIMES or 1]
     finest = width * math.sqrt(len(times)) / _MOST
     chosen = step or min(current.length_scale / _POINTS_A_SCALE, width / _FEWEST)
     chosen = max(chosen, finest)
@@ -134,19 +136,20 @@ def grid_current(
         grid = _sampled(current, region, chosen, times)
         if step is not None or chosen <= finest:
             break
-        if max(_error_at(grid, current, t) for t in times) <= tolerance:
+        if max(_error_at(grid, current, t) for t in some_times) <= tolerance:
             break
         chosen = max(chosen / 2.0, finest)
     return grid
 
 
 def interpolation_error(grid: CurrentGrid, current: Current) -> float:
-    """Largest error found in metres per second, at the grid's times and halfway between them.
+    """Largest error found in metres per second, at the grid's times and between them.
 
     The outermost cells, which lie beyond the region that was asked for, do not count.
     """
-    halves = range(2 * len(grid.uv) - 1)
-    return max(_error_at(grid, current, grid.begin + 0.5 * k * grid.every) for k in halves)
+    times = grid.begin + grid.every * np.arange(len(grid.uv))
+    between = times[:-1] + _BETWEEN * grid.every
+    return max(_error_at(grid, current, t) for t in (*times, *between))
 
 
 def _error_at(grid: CurrentGrid, current: Current, t: float) -> float:
@@ -179,9 +182,9 @@ def _grid_times(current: Current, region: Region, duration: float, tolerance: fl
     while True:
         times = np.linspace(0.0, duration, count)
         known = np.array([current(x, y, t) for t in times])
-        halfway = np.array([current(x, y, t) for t in (times[:-1] + times[1:]) / 2.0])
-        error = np.hypot(*np.moveaxis(halfway - (known[:-1] + known[1:]) / 2.0, 1, 0)).max()
-        if error <= tolerance or count >= _MOST_TIMES:
+        true = np.array([current(x, y, t) for t in times[:-1] + _BETWEEN * times[1]])
+        error = true - known[:-1] - _BETWEEN * np.diff(known, axis=0)
+        if np.hypot(error[:, 0], error[:, 1]).max() <= tolerance or count >= _MOST_TIMES:
             return times
         count = 2 * count - 1
 

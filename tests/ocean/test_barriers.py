@@ -17,7 +17,7 @@ Floats = NDArray[np.float64]
 Leg = tuple[float, float, float, float]
 
 SQUARE = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]
-PLACE = st.floats(-100.0, 100.0)
+PLACE = st.floats(-100.0, 100.0).map(lambda metres: round(metres, 6))  # shapely likes no less
 LEG = st.tuples(PLACE, PLACE, PLACE, PLACE)
 SEED = st.integers(0, 2**32)
 FEW = settings(deadline=None, max_examples=100)

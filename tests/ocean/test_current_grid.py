@@ -1,7 +1,7 @@
 """A current on a grid: cubic convolution's theory, and an error that is what it says."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -153,6 +153,15 @@ def test_a_changing_current_keeps_the_tolerance_too(tolerance: float) -> None:
     assert interpolation_error(grid, GYRE) <= 2.0 * tolerance  # one in space and one in time
     for share in (0.03, 0.5, 0.77):
         assert worst(grid, GYRE, share * 12_000.0) <= 2.5 * tolerance
+
+
+@pytest.mark.parametrize("swings", [3, 6, 12])
+def test_a_current_cannot_swing_unseen_between_the_times(swings: int) -> None:
+    """Though it be the same at all times of a coarser grid, and halfway between them."""
+    gyre = replace(GYRE, omega=2.0 * math.pi * swings / 12_000.0)
+    grid = grid_current(gyre, REGION, duration=12_000.0, tolerance=0.02)
+    for share in np.random.default_rng(6).random(5):
+        assert worst(grid, gyre, share * 12_000.0) <= 0.025
 
 
 def test_a_grid_of_many_times_has_fewer_points() -> None:
