@@ -99,26 +99,14 @@ def _refuse_inside(
 
 
 def _parts(ocean: Ocean, barriers: Barriers) -> Iterator[tuple[str, Barriers]]:
-    """Every barrier by its name, alone."""
+    """Every barrier by its name, within the region; this comes first, and so wins a tie."""
     empty = no_barriers()
-    yield (
-        "the region",
-        barriers._replace(
-            circles=empty.circles, corners=empty.corners, first=empty.first, land=empty.land
-        ),
-    )
-    open_water = empty._replace(margin=barriers.margin)
+    mask = barriers._replace(circles=empty.circles, corners=empty.corners, first=empty.first)
+    open_water = mask._replace(land=empty.land)
+    yield "the region", open_water
     for name, zone in _zones(ocean):
         yield name, _with_zones(open_water, {name: zone})
-    yield (
-        "the land of the mask",
-        open_water._replace(
-            land=barriers.land,
-            land_west=barriers.land_west,
-            land_south=barriers.land_south,
-            land_step=barriers.land_step,
-        ),
-    )
+    yield "the land of the mask", mask
 
 
 def _zones(ocean: Ocean) -> Iterator[tuple[str, Circle | Polygon]]:
