@@ -7,6 +7,7 @@ solvers never see an instance: they see the `TeamOrienteering` problem it turns 
 
 from __future__ import annotations
 
+import re
 from typing import Annotated
 
 import numpy as np
@@ -144,11 +145,25 @@ class Uniform:
 
 @dataclass(frozen=True, slots=True, config=_STRICT)
 class Currents:
-    """Parts of a current field, which add up; `file` names a CF netCDF file."""
+    """Parts of a current field, which add up.
+
+    Parameters
+    ----------
+    vortices, uniform
+        See their classes.
+    file
+        Name of a CF netCDF file of an ocean model.
+    depth
+        Depth in metres at which the file's current is taken, positive down.
+    begin
+        When the mission begins, UTC, as 2016-01-31T12:00; None takes the file's first time.
+    """
 
     vortices: tuple[Vortex, ...] = ()
     uniform: Uniform | None = None
     file: Annotated[str, Field(min_length=1)] | None = None
+    depth: NonNegativeFloat = 0.0
+    begin: Annotated[str, Field(min_length=1)] | None = None
 
 
 @dataclass(frozen=True, slots=True, config=_STRICT)
@@ -248,7 +263,9 @@ class Instance:
     fleet, service, ocean, uncertainty
         See their classes.
     crs
-        Coordinate reference system; None means local metres.
+        What the local metres are measured from: an azimuthal equidistant plane as a PROJ string,
+        ``+proj=aeqd +lat_0=.. +lon_0=..``. None leaves that open; a file of currents is then
+        laid with its middle at the origin.
     metric
         How coordinates become distances; ``euclidean`` but for benchmark formats.
     travel_times
@@ -269,9 +286,10 @@ class Instance:
     travel_times: tuple[tuple[NonNegativeFloat, ...], ...] | None = None
 
     def __post_init__(self) -> None:
-        if self.crs is not None:
+        if self.crs is not None and self.origin is None:
             raise InputError(
-                "only local metres are supported; project the coordinates and set crs to null",
+                "only local metres are supported; project the coordinates and set crs to null or "
+                "to '+proj=aeqd +lat_0=.. +lon_0=..'",
                 field="crs",
                 value=self.crs,
             )
@@ -302,6 +320,17 @@ class Instance:
                     field=field,
                     value=length,
                 )
+
+    @property
+    def origin(self) -> tuple[float, float] | None:
+        """Longitude and latitude in degrees of the point that x and y are measured from."""
+        parts = dict(re.findall(r"\+(\w+)=(\S+)", self.crs or ""))
+        if parts.get("proj") != "aeqd":
+            return None
+        try:
+            return float(parts["lon_0"]), float(parts["lat_0"])
+        except (KeyError, ValueError):
+            return None
 
     @property
     def has_ocean(self) -> bool:

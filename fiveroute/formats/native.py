@@ -2,7 +2,8 @@
 
 It holds everything an `Instance` knows, one node a line, and loses no bit of a number.
 Some keys are left out where they say nothing out of the ordinary: ``metric`` (how coordinates
-become distances), ``travel_times``, the fleet's ``turning_radius`` and the ocean's ``margin``.
+become distances), ``travel_times``, the fleet's ``turning_radius``, the ocean's ``margin``, and the ``depth``
+and ``begin`` of its currents.
 """
 
 from __future__ import annotations
@@ -75,6 +76,9 @@ def instance_document(instance: Instance) -> dict[str, Any]:
         del document["fleet"]["turning_radius"]
     if instance.ocean.margin == 0.0:
         del document["ocean"]["margin"]
+    for key in ("depth", "begin"):
+        if not document["ocean"]["currents"][key]:
+            del document["ocean"]["currents"][key]
     return document
 
 

@@ -37,5 +37,8 @@ def stated_current(instance: Instance, folder: Path | None = None) -> Superposit
     if currents.file is not None:
         from fiveroute.ocean.model_file import read_current
 
-        parts.append(read_current((folder or Path()) / currents.file))
+        file = (folder or Path()) / currents.file
+        parts.append(
+            read_current(file, origin=instance.origin, depth=currents.depth, begin=currents.begin)
+        )
     return Superposition(tuple(parts))

@@ -31,6 +31,7 @@ from fiveroute.instance import Circle, Instance
 from fiveroute.limits import Clock, Limits, Progress, ProgressCallback
 from fiveroute.ocean.current_grid import Region, grid_current
 from fiveroute.ocean.currents import Current, Superposition
+from fiveroute.ocean.land_mask import land_distance
 from fiveroute.ocean.model_current import ModelCurrent
 from fiveroute.ocean.obstacles import barriers_of, refuse_points_inside
 from fiveroute.ocean.stated import stated_current
@@ -153,12 +154,17 @@ def waters_of(instance: Instance, current: Superposition, *, duration: float = 0
         If start, destination or a node lies inside an obstacle or on land, or beyond what the
         file of currents covers.
     """
-    region = _region(instance)
-    land = None
+    region, land = _region(instance), None
+    current(*instance.points.T)  # refuses stops beyond the data
+    parts: list[Current] = []
     for part in current.parts:
         if isinstance(part, ModelCurrent):
-            region, land = part.clip(region), part.land
-    barriers = barriers_of(instance.ocean, region, land=land)
+            land = land_distance(part.closed, part.west, part.south, part.step)
+            parts.append(replace(part, extends=True))
+        else:
+            parts.append(part)
+    current = Superposition(tuple(parts))
+    barriers = barriers_of(instance.ocean, region, margin=instance.ocean.margin, land=land)
     refuse_points_inside(instance, barriers)
     return Waters(
         grid_current(current, region, duration=duration, tolerance=_ERROR),
