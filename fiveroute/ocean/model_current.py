@@ -1,0 +1,326 @@
+"""The current of an ocean model's file: a forecast to plan in.
+
+    current = read_current("forecast.nc", origin=(4.8, 60.6))
+    u, v = current(x, y, t)
+
+The file's velocities are brought to a regular grid in metres about the origin
+(`fiveroute.ocean.model_source`, `fiveroute.ocean.model_grid`); between its points they
+are bilinear, between its times linear. x and y are metres to the east and north of the origin,
+u and v the velocity on that map.
+
+Land is a mask, not a velocity: where there is land the velocity goes on as in the nearest water,
+so that interpolation near the coast takes nothing of it, and paths are kept off by `land`.
+Where and when there are no data, asking is an error. Planners that grid the current over a
+rectangle take `dataclasses.replace(current, extends=True)` and keep their paths off `closed`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fiveroute.errors import InputError
+from fiveroute.ocean.local_plane import LocalPlane
+from fiveroute.ocean.model_file import open_model_file
+from fiveroute.ocean.model_grid import MapGrid, resample
+from fiveroute.ocean.model_source import Source, read_source
+
+__all__ = ["Coverage", "ModelCurrent", "read_current"]
+
+Floats = NDArray[np.float64]
+Booleans = NDArray[np.bool_]
+Range = tuple[float, float]
+
+_REACH = 250e3  # m; as far the map's lengths err by 0.03 % at most
+_STEPS_A_SCALE = 4.0
+
+
+class Coverage(NamedTuple):
+    """Ranges of the data.
+
+    Parameters
+    ----------
+    lon, lat
+        Of the centres of the cells, in degrees.
+    x, y
+        Of the map's grid, in metres.
+    depth
+        Of the levels of the file, in metres; None if it has none.
+    time
+        First and last, in UTC; None if the current is steady.
+    """
+
+    lon: Range
+    lat: Range
+    x: Range
+    y: Range
+    depth: Range | None
+    time: tuple[np.datetime64, np.datetime64] | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ModelCurrent:
+    """A current on a regular grid in metres about an origin.
+
+    Parameters
+    ----------
+    grid
+        Velocities, land and where there are data.
+    times
+        Seconds since the mission began, growing, shape (times,); one for a steady current.
+    plane
+        The map.
+    ranges
+        What `coverage` returns.
+    provenance
+        What was understood of the file, by subject.
+    source
+        Variables and file that errors name.
+    extends
+        Whether positions beyond the data take the velocity of the nearest that has one; for
+        planners that keep their paths off `closed`.
+    """
+
+    grid: MapGrid
+    times: Floats
+    plane: LocalPlane
+    ranges: Coverage
+    provenance: dict[str, str]
+    source: tuple[str, str]
+    extends: bool = False
+
+    @property
+    def land(self) -> Booleans:
+        """Whether a point of the grid lies on land, shape (rows, columns), rows to the north."""
+        return self.grid.land
+
+    @property
+    def closed(self) -> Booleans:
+        """Whether a point of the grid lies on land or beyond the data, same shape."""
+        return self.grid.land | ~self.grid.covered
+
+    @property
+    def west(self) -> float:
+        """Position of the grid's first column in metres."""
+        return self.grid.west
+
+    @property
+    def south(self) -> float:
+        """Position of the grid's first row in metres."""
+        return self.grid.south
+
+    @property
+    def step(self) -> float:
+        """Spacing of the grid in metres."""
+        return self.grid.step
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether the file holds one time only."""
+        return len(self.times) == 1
+
+    @property
+    def length_scale(self) -> float:
+        """Four steps of the grid: what is gridded anew begins with its spacing."""
+        return _STEPS_A_SCALE * self.grid.step
+
+    def coverage(self) -> Coverage:
+        """Where and when there are data."""
+        return self.ranges
+
+    def __call__(self, x: ArrayLike, y: ArrayLike, t: ArrayLike = 0.0) -> tuple[Floats, Floats]:
+        """Velocity at positions and times.
+
+        Raises
+        ------
+        InputError
+            If there are no data there or then.
+        """
+        across, up = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+        k, later = self._moment(np.asarray(t, dtype=np.float64))
+        shape = np.broadcast_shapes(across.shape, up.shape, k.shape)
+        grid, (rows, columns) = self.grid, self.grid.land.shape
+        column = np.asarray((across - grid.west) / grid.step)
+        row = np.asarray((up - grid.south) / grid.step)
+        self._require_covered(across, up, row, column)
+        column, row = np.clip(column, 0.0, columns - 1.0), np.clip(row, 0.0, rows - 1.0)
+        i = np.minimum(column.astype(np.int64), columns - 2)
+        j = np.minimum(row.astype(np.int64), rows - 2)
+        s, r, later = (part[..., None] for part in (column - i, row - j, later))
+        uv = self._in_space(k, j, i, r, s)
+        if not self.is_steady:
+            uv = uv + later * (self._in_space(k + 1, j, i, r, s) - uv)
+        uv = np.broadcast_to(uv, (*shape, 2))
+        return uv[..., 0].copy(), uv[..., 1].copy()
+
+    def _in_space(
+        self, k: NDArray[np.int64], j: NDArray[np.int64], i: NDArray[np.int64], r: Floats, s: Floats
+    ) -> Floats:
+        """Bilinear interpolation between four points of the grid."""
+        uv = self.grid.uv
+        south = (1.0 - s) * uv[k, j, i] + s * uv[k, j, i + 1]
+        north = (1.0 - s) * uv[k, j + 1, i] + s * uv[k, j + 1, i + 1]
+        return np.asarray((1.0 - r) * south + r * north)
+
+    def _moment(self, t: Floats) -> tuple[NDArray[np.int64], Floats]:
+        """The last time that is not later than t, and the share of the step from it to t."""
+        if self.is_steady:
+            self._require("t", t, (-math.inf, math.inf), "s")
+            return np.zeros(t.shape, dtype=np.int64), np.zeros(t.shape)
+        times = self.times
+        self._require("t", t, (float(times[0]), float(times[-1])), "s")
+        k = np.clip(np.searchsorted(times, t, side="right") - 1, 0, len(times) - 2)
+        return np.asarray(k), np.asarray((t - times[k]) / (times[k + 1] - times[k]))
+
+    def _require_covered(self, x: Floats, y: Floats, row: Floats, column: Floats) -> None:
+        everywhere = (-math.inf, math.inf)
+        self._require("x", x, everywhere if self.extends else self.ranges.x, "m")
+        self._require("y", y, everywhere if self.extends else self.ranges.y, "m")
+        if self.extends:
+            return
+        j, i = np.rint(row).astype(np.int64), np.rint(column).astype(np.int64)
+        if not self.grid.covered[j, i].all():
+            raise self._outside(
+                f"x = {_shown(x)} m with y = {_shown(y)} m asked, of which a part lies beyond "
+                f"the edge of the data in x = {_shown(self.ranges.x)} m, "
+                f"y = {_shown(self.ranges.y)} m"
+            )
+
+    def _require(self, name: str, asked: Floats, available: Range, unit: str) -> None:
+        """Refuse what is outside a range, or is no number."""
+        first, last = available
+        slack = 1e-9 * (last - first) if math.isfinite(last - first) else 0.0
+        if not ((asked >= first - slack) & (asked <= last + slack) & np.isfinite(asked)).all():
+            raise self._outside(
+                f"{name} = {_shown(asked)} {unit} asked, but the data cover "
+                f"{name} = {_shown(available)} {unit}{self._clock(name)}"
+            )
+
+    def _clock(self, name: str) -> str:
+        if name != "t" or self.ranges.time is None:
+            return ""
+        first, last = (np.datetime_as_string(time, unit="s") for time in self.ranges.time)
+        return f" ({first} .. {last} UTC)"
+
+    def _outside(self, rule: str) -> InputError:
+        variables, file = self.source
+        return InputError(rule, field=variables, file=file)
+
+
+def _shown(values: ArrayLike) -> str:
+    least, most = float(np.min(values)), float(np.max(values))
+    return f"{least:.10g}" if least == most else f"{least:.10g} .. {most:.10g}"
+
+
+def read_current(
+    path: Path | str,
+    *,
+    origin: tuple[float, float] | None = None,
+    depth: float = 0.0,
+    u: str | None = None,
+    v: str | None = None,
+    begin: datetime | np.datetime64 | str | None = None,
+    reach: float = _REACH,
+) -> ModelCurrent:
+    """Read the current of an ocean model from a CF netCDF file.
+
+    Parameters
+    ----------
+    path
+        The file.
+    origin
+        Longitude and latitude in degrees of the point that x and y are measured from; None
+        takes the middle of the data.
+    depth
+        Depth in metres, positive down; 0 is the highest level.
+    u, v
+        Names of the variables; None finds them.
+    begin
+        When the mission begins, in UTC unless it says otherwise; None takes the first time.
+    reach
+        Distance from the origin in metres within which the data are read.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or understood, or has no data there or then.
+    """
+    if not (math.isfinite(reach) and reach > 0.0):
+        raise InputError("must be a positive distance in metres", field="reach", value=reach)
+    try:
+        with open_model_file(path) as data:
+            source = read_source(data, origin=origin, depth=depth, u=u, v=v, reach=reach)
+        return _current(source, Path(path), begin)
+    except InputError as error:
+        raise error.at(path) from error.__cause__
+
+
+def _current(
+    source: Source, path: Path, begin: datetime | np.datetime64 | str | None
+) -> ModelCurrent:
+    times, note = _since(source.times, begin)
+    grid = resample(source.cells)
+    velocity, notes = source.velocity, source.notes
+    rows, columns = (
+        np.flatnonzero(grid.covered.any(axis=1)),
+        np.flatnonzero(grid.covered.any(axis=0)),
+    )
+    return ModelCurrent(
+        grid,
+        times,
+        source.plane,
+        Coverage(
+            source.lon,
+            source.lat,
+            (grid.west + grid.step * columns[0], grid.west + grid.step * columns[-1]),
+            (grid.south + grid.step * rows[0], grid.south + grid.step * rows[-1]),
+            source.level.depths,
+            None if source.times is None else (source.times[0], source.times[-1]),
+        ),
+        notes | {"times": note},
+        (f"{velocity.u}, {velocity.v}", str(path)),
+    )
+
+
+def _since(
+    times: NDArray[np.datetime64] | None, begin: datetime | np.datetime64 | str | None
+) -> tuple[Floats, str]:
+    """Seconds of the times since the mission begins, and what they are."""
+    if times is None:
+        return np.zeros(1), "a single field, taken as steady"
+    first, last = (np.datetime_as_string(time, unit="s") for time in (times[0], times[-1]))
+    if len(times) == 1:
+        return np.zeros(1), f"a single field of {first} UTC, taken as steady"
+    start = times[0] if begin is None else _utc(begin)
+    if not times[0] <= start <= times[-1]:
+        raise InputError(
+            f"must be within the times of the file, {first} .. {last} UTC",
+            field="begin",
+            value=str(begin),
+        )
+    seconds = (times - start) / np.timedelta64(1, "s")
+    origin = np.datetime_as_string(start, unit="s")
+    note = f"{len(times)} from {first} to {last} UTC, t = 0 at {origin}"
+    return np.asarray(seconds, dtype=np.float64), note
+
+
+def _utc(moment: datetime | np.datetime64 | str) -> np.datetime64:
+    """A moment in UTC; one without a time zone is in UTC already."""
+    if isinstance(moment, str):
+        try:
+            moment = datetime.fromisoformat(moment)
+        except ValueError as error:
+            raise InputError(
+                "is no time; write 2016-01-31T12:00", field="begin", value=moment
+            ) from error
+    if isinstance(moment, datetime):
+        if moment.tzinfo is not None:
+            moment = moment.astimezone(UTC).replace(tzinfo=None)
+        return np.datetime64(moment, "ns")
+    return moment

@@ -1,0 +1,113 @@
+"""Files of ocean models as they lie on the disk: opening them, decoding numbers and times.
+
+Files are opened through xarray, but decoded here, and only the variables that are needed: files
+of ocean models carry more than one missing value, fill values that are not declared, and times
+of variables nobody asks for that no calendar knows.
+
+A packed number n stands for scale_factor n + add_offset; the fill value is compared before that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fiveroute.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["decoded", "decoded_times", "open_model_file"]
+
+Floats = NDArray[np.float64]
+Times = NDArray[np.datetime64]
+
+_ENGINES = {b"\x89HDF": "h5netcdf", b"CDF\x01": "scipy", b"CDF\x02": "scipy"}
+_MISSING = 1e10  # what is larger is a fill value, declared or not (1e37, 1.2676506e30, ...)
+_ROUNDING = 1e-7  # relative, between a fill value and the same stored in single precision
+_CALENDARS = ("standard", "gregorian", "proleptic_gregorian")
+
+
+@contextmanager
+def open_model_file(path: Path | str) -> Iterator[xr.Dataset]:
+    """Open a netCDF file, nothing of it decoded; close it at the end.
+
+    Raises
+    ------
+    InputError
+        If it is not there, or not a netCDF file.
+    """
+    import xarray as xr
+
+    engine = _engine(Path(path))
+    try:
+        data = xr.open_dataset(path, engine=engine, decode_cf=False)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InputError(f"cannot be read as netCDF ({error})", file=path) from error
+    with data:
+        yield data
+
+
+def _engine(path: Path) -> str:
+    """The engine of xarray that reads a file, by the file's first bytes."""
+    try:
+        with path.open("rb") as file:
+            head = file.read(4)
+    except OSError as error:
+        raise InputError(f"cannot be opened ({error.strerror})", file=path) from error
+    if head == b"CDF\x05":
+        raise InputError("is netCDF-3 with 64-bit data; convert it with `nccopy -k nc4`", file=path)
+    if head not in _ENGINES:
+        raise InputError("is not a netCDF file", file=path)
+    return _ENGINES[head]
+
+
+def decoded(variable: xr.DataArray) -> Floats:
+    """Values of a variable in its units, NaN where there is none."""
+    values = np.array(variable.values, dtype=np.float64)
+    missing = ~(np.abs(values) < _MISSING)
+    for attribute in ("_FillValue", "missing_value"):
+        for fill in _numbers(variable.attrs.get(attribute)):
+            missing |= np.abs(values - fill) <= _ROUNDING * abs(fill)
+    for scale in _numbers(variable.attrs.get("scale_factor")):
+        values *= scale
+    for offset in _numbers(variable.attrs.get("add_offset")):
+        values += offset
+    values[missing] = np.nan
+    return values
+
+
+def _numbers(attribute: Any) -> list[float]:
+    """Numbers of an attribute; none if it is absent or a text."""
+    array = np.atleast_1d([] if attribute is None else attribute)
+    return [float(number) for number in array] if array.dtype.kind in "iuf" else []
+
+
+def decoded_times(variable: xr.DataArray) -> Times:
+    """Times of a CF time coordinate, in UTC."""
+    import xarray as xr
+
+    calendar = str(variable.attrs.get("calendar", "standard")).lower()
+    if calendar not in _CALENDARS:
+        raise InputError(
+            "is no calendar of real days; only the Gregorian calendar can be read",
+            field=f"{variable.name}.calendar",
+            value=calendar,
+        )
+    try:
+        times = xr.decode_cf(xr.Dataset({"time": (variable.dims, variable.values, variable.attrs)}))
+    except (ValueError, OverflowError) as error:
+        raise InputError(
+            "cannot be read as times; CF writes 'seconds since 1970-01-01 00:00:00'",
+            field=f"{variable.name}.units",
+            value=variable.attrs.get("units"),
+        ) from error
+    read = times["time"].values
+    if read.dtype.kind != "M" or np.isnat(read).any():
+        raise InputError("holds what is not a time", field=str(variable.name))
+    return np.asarray(read.astype("datetime64[ns]"))

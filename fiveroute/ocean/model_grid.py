@@ -1,0 +1,290 @@
+"""From the grid of an ocean model to a regular grid in metres.
+
+A velocity is a complex number w = u + i v, so that components along axes that stand at the angle
+a to the map's are brought to the map by a factor, w exp(i a).
+
+Faces to cells: on a C-grid a cell (j, i) has u on its western and eastern face and v on its
+southern and northern one,
+
+    u_cell(j, i) = (u(j, i-1) + u(j, i)) / 2,    v_cell(j, i) = (v(j-1, i) + v(j, i)) / 2,
+
+where a face that is closed by land counts as zero: no water flows through it. The outermost cells,
+which have one face only, are left out.
+
+Cells to the map: each point of the map's grid finds its fractional row and column among the cells
+by Newton's method, and takes the bilinear interpolation of the four
+cells around it. Cells on land lend the velocity of the nearest wet cell; which they are is kept.
+A cell reaches half a row and half a column to each side, and there the data end.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = [
+    "CellGrid",
+    "MapGrid",
+    "bilinear",
+    "cells_from_faces",
+    "direction_of_rows",
+    "is_left_handed",
+    "resample",
+]
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Booleans = NDArray[np.bool_]
+
+_FINER = 2.0  # points of the map's grid in the spacing of the model's
+_NEWTON_STEPS = 12
+_CLOSE = 1e-6  # cells within which Newton's method has arrived
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CellGrid:
+    """Velocities in the cells of a model, on the map.
+
+    Parameters
+    ----------
+    x, y
+        Centres of the cells in metres, shape (rows, columns).
+    w
+        Velocity u + i v in metres per second, shape (times, rows, columns); NaN on land.
+    """
+
+    x: Floats
+    y: Floats
+    w: Complexes
+
+    @property
+    def land(self) -> Booleans:
+        """Cells that are without water at any time, shape (rows, columns)."""
+        return np.asarray(~np.isfinite(self.w).all(axis=0))
+
+    @property
+    def spacing(self) -> float:
+        """Median distance in metres of neighbours in rows or in columns, the smaller."""
+        steps = (np.hypot(np.diff(self.x, axis=k), np.diff(self.y, axis=k)) for k in (0, 1))
+        return float(min(np.nanmedian(step) for step in steps))
+
+    def filled(self) -> Complexes:
+        """The velocities, those on land taken from the nearest wet cell."""
+        return _nearest_filled(self.w, self.land)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MapGrid:
+    """Velocities on a regular grid of the map.
+
+    Parameters
+    ----------
+    uv
+        Components to the east and north of the map in metres per second, shape (times, rows,
+        columns, 2); without gaps.
+    land
+        Whether a point lies on land, shape (rows, columns).
+    covered
+        Whether the data reach to a point, same shape.
+    west, south
+        Position of the first column and row in metres.
+    step
+        Spacing in metres.
+    """
+
+    uv: Floats
+    land: Booleans
+    covered: Booleans
+    west: float
+    south: float
+    step: float
+
+
+def cells_from_faces(
+    u: Floats, v: Floats, closed_u: Booleans | None = None, closed_v: Booleans | None = None
+) -> tuple[Floats, Floats]:
+    """Bring the velocities on the faces of cells to their centres.
+
+    Parameters
+    ----------
+    u
+        Components through the western and eastern faces of n columns of cells, shape
+        (times, rows, n + 1), NaN where there is none.
+    v
+        Components through the southern and northern faces of m rows, shape
+        (times, m + 1, columns).
+    closed_u, closed_v
+        Faces at the coast and on land, shapes without the times; None takes those
+        that never have a velocity.
+
+    Returns
+    -------
+    u, v : array
+        Components in the cells, shape (times, m, n); NaN where all faces are closed.
+    """
+    shut_u = np.isnan(u).all(axis=0) if closed_u is None else closed_u
+    shut_v = np.isnan(v).all(axis=0) if closed_v is None else closed_v
+    open_u, open_v = np.where(shut_u, 0.0, u), np.where(shut_v, 0.0, v)
+    in_u = (open_u[..., :-1] + open_u[..., 1:]) / 2.0
+    in_v = (open_v[..., :-1, :] + open_v[..., 1:, :]) / 2.0
+    shut = shut_u[:, :-1] & shut_u[:, 1:] & shut_v[:-1] & shut_v[1:]
+    return np.where(shut, np.nan, in_u), np.where(shut, np.nan, in_v)
+
+
+def direction_of_rows(x: Floats, y: Floats) -> Floats:
+    """Angle in radians from the map's x axis to the way in which columns are counted."""
+    order: Literal[1, 2] = 2 if x.shape[1] > 2 else 1
+    east, north = (np.gradient(part, axis=1, edge_order=order) for part in (x, y))
+    return np.asarray(np.arctan2(north, east), dtype=np.float64)
+
+
+def is_left_handed(x: Floats, y: Floats) -> bool:
+    """Whether rows are counted to the right of the way in which columns are."""
+    east_j, north_j, east_i, north_i = (np.gradient(z, axis=k) for k in (0, 1) for z in (x, y))
+    return bool(np.nanmedian(east_i * north_j - north_i * east_j) < 0.0)
+
+
+def resample(cells: CellGrid) -> MapGrid:
+    """Bring the velocities of cells to a regular grid that covers them all."""
+    spacing = cells.spacing
+    step = spacing / _FINER
+    west, south = (_first(part, spacing, step) for part in (cells.x, cells.y))
+    columns, rows = (
+        math.ceil((float(np.nanmax(part)) + spacing / 2.0 - first) / step) + 1
+        for part, first in ((cells.x, west), (cells.y, south))
+    )
+    x, y = np.meshgrid(west + step * np.arange(columns), south + step * np.arange(rows))
+    row, column = _find_cells(cells, x.ravel(), y.ravel())
+    covered = np.isfinite(row).reshape(x.shape)
+    row, column = np.nan_to_num(row), np.nan_to_num(column)
+    w = bilinear(cells.filled(), row, column).reshape(-1, *x.shape)
+    land = covered & _on(cells.land, row, column).reshape(x.shape)
+    w = _nearest_filled(w, ~covered)
+    uv = np.stack((w.real, w.imag), axis=-1)
+    return MapGrid(uv, land, covered, west, south, step)
+
+
+def _on(land: Booleans, row: Floats, column: Floats) -> Booleans:
+    """Whether positions lie in cells of land, the borders of these included."""
+    last = land.shape[0] - 1, land.shape[1] - 1
+    found = np.zeros(len(row), dtype=bool)
+    for down in (-_CLOSE, _CLOSE):
+        j = np.clip(np.rint(row + down), 0, last[0]).astype(np.int64)
+        for right in (-_CLOSE, _CLOSE):
+            i = np.clip(np.rint(column + right), 0, last[1]).astype(np.int64)
+            found |= land[j, i]
+    return found
+
+
+def _first(coordinate: Floats, spacing: float, step: float) -> float:
+    """First coordinate of the map's grid: a multiple of its spacing."""
+    return math.floor((float(np.nanmin(coordinate)) - spacing / 2.0) / step) * step
+
+
+def _find_cells(cells: CellGrid, x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    """Fractional rows and columns of positions, shape (n,); NaN beyond the outermost cells."""
+    row, column, arrived = _newton(cells, x, y, *_affine_guess(cells, x, y))
+    lost = np.flatnonzero(~arrived)
+    if len(lost):
+        guess = _nearest_cells(cells, x[lost], y[lost])
+        row[lost], column[lost], arrived[lost] = _newton(cells, x[lost], y[lost], *guess)
+    rows, columns = cells.x.shape
+    beyond = np.maximum(
+        abs(row - (rows - 1) / 2) - rows / 2, abs(column - (columns - 1) / 2) - columns / 2
+    )
+    found = arrived & (beyond <= _CLOSE)
+    return np.where(found, row, np.nan), np.where(found, column, np.nan)
+
+
+def _affine_guess(cells: CellGrid, x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    """Rows and columns of positions on the grid of parallelograms closest to the cells'."""
+    row, column = np.indices(cells.x.shape)
+    placed = np.isfinite(cells.x) & np.isfinite(cells.y)
+    centres = np.column_stack((cells.x[placed], cells.y[placed], np.ones(placed.sum())))
+    known = np.column_stack((row[placed], column[placed]))
+    fit = np.linalg.lstsq(centres, known, rcond=None)[0]
+    guess = np.column_stack((x, y, np.ones(len(x)))) @ fit
+    return guess[:, 0], guess[:, 1]
+
+
+def _nearest_cells(cells: CellGrid, x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    from scipy.spatial import cKDTree
+
+    placed = np.flatnonzero(np.isfinite(cells.x) & np.isfinite(cells.y))
+    centres = np.column_stack((cells.x.ravel()[placed], cells.y.ravel()[placed]))
+    _, nearest = cKDTree(centres).query(np.column_stack((x, y)))
+    row, column = np.divmod(placed[nearest], cells.x.shape[1])
+    return row.astype(np.float64), column.astype(np.float64)
+
+
+def _newton(
+    cells: CellGrid, x: Floats, y: Floats, row: Floats, column: Floats
+) -> tuple[Floats, Floats, Booleans]:
+    """Newton's method from a guess: rows, columns, and whether it has arrived there."""
+    for _ in range(_NEWTON_STEPS):
+        down, right = _newton_step(cells, x, y, row, column)
+        row, column = row + down, column + right
+        arrived = np.hypot(down, right) < _CLOSE
+        if arrived.all():
+            break
+    return row, column, arrived
+
+
+def _newton_step(
+    cells: CellGrid, x: Floats, y: Floats, row: Floats, column: Floats
+) -> tuple[Floats, Floats]:
+    """Rows and columns still to go, the position being linear in each between cells."""
+    rows, columns = cells.x.shape
+    j = np.clip(np.nan_to_num(np.floor(row)), 0, rows - 2).astype(np.int64)
+    i = np.clip(np.nan_to_num(np.floor(column)), 0, columns - 2).astype(np.int64)
+    r, s = row - j, column - i
+    z = cells.x + 1j * cells.y
+    z00, z01, z10, z11 = z[j, i], z[j, i + 1], z[j + 1, i], z[j + 1, i + 1]
+    along_row = z01 - z00 + r * (z11 - z10 - z01 + z00)
+    along_column = z10 - z00 + s * (z11 - z10 - z01 + z00)
+    rest = x + 1j * y - (z00 + s * (z01 - z00) + r * along_column)
+    area = (along_row.conj() * along_column).imag
+    with np.errstate(divide="ignore", invalid="ignore"):
+        right = (rest.conj() * along_column).imag / area
+        down = (along_row.conj() * rest).imag / area
+    return down, right
+
+
+def bilinear(values: Complexes, row: Floats, column: Floats) -> Complexes:
+    """Interpolate at fractional rows and columns, constant beyond the first and last.
+
+    Parameters
+    ----------
+    values
+        Shape (..., rows, columns).
+    row, column
+        Shape (n,).
+
+    Returns
+    -------
+    array
+        Shape (..., n).
+    """
+    rows, columns = values.shape[-2:]
+    row, column = np.clip(row, 0.0, rows - 1.0), np.clip(column, 0.0, columns - 1.0)
+    j = np.minimum(row.astype(np.int64), rows - 2)
+    i = np.minimum(column.astype(np.int64), columns - 2)
+    r, s = row - j, column - i
+    south = (1.0 - s) * values[..., j, i] + s * values[..., j, i + 1]
+    north = (1.0 - s) * values[..., j + 1, i] + s * values[..., j + 1, i + 1]
+    return np.asarray((1.0 - r) * south + r * north)
+
+
+def _nearest_filled(values: Complexes, gaps: Booleans) -> Complexes:
+    """Values, shape (..., rows, columns), with those in gaps taken from the nearest outside."""
+    if not gaps.any():
+        return values
+    from scipy.ndimage import distance_transform_edt
+
+    nearest = distance_transform_edt(gaps, return_distances=False, return_indices=True)
+    j, i = np.asarray(nearest)
+    return values[..., j, i]
