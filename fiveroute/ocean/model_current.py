@@ -38,7 +38,6 @@ Booleans = NDArray[np.bool_]
 Range = tuple[float, float]
 
 _REACH = 250e3  # m; as far the map's lengths err by 0.03 % at most
-_STEPS_A_SCALE = 4.0
 
 
 class Coverage(NamedTuple):
@@ -49,7 +48,7 @@ class Coverage(NamedTuple):
     lon, lat
         Of the centres of the cells, in degrees.
     x, y
-        Of the map's grid, in metres.
+        On the map, in metres, to half a cell beyond the centres.
     depth
         Of the levels of the file, in metres; None if it has none.
     time
@@ -127,8 +126,8 @@ class ModelCurrent:
 
     @property
     def length_scale(self) -> float:
-        """Four steps of the grid: what is gridded anew begins with its spacing."""
-        return _STEPS_A_SCALE * self.grid.step
+        """Twice the spacing of the model's cells: nothing smaller is in the data."""
+        return 2.0 * self.grid.spacing
 
     def coverage(self) -> Coverage:
         """Where and when there are data."""
@@ -184,7 +183,9 @@ class ModelCurrent:
         self._require("y", y, everywhere if self.extends else self.ranges.y, "m")
         if self.extends:
             return
-        j, i = np.rint(row).astype(np.int64), np.rint(column).astype(np.int64)
+        rows, columns = self.grid.covered.shape
+        j = np.clip(np.rint(row), 0, rows - 1).astype(np.int64)
+        i = np.clip(np.rint(column), 0, columns - 1).astype(np.int64)
         if not self.grid.covered[j, i].all():
             raise self._outside(
                 f"x = {_shown(x)} m with y = {_shown(y)} m asked, of which a part lies beyond "
@@ -267,10 +268,6 @@ def _current(
     times, note = _since(source.times, begin)
     grid = resample(source.cells)
     velocity, notes = source.velocity, source.notes
-    rows, columns = (
-        np.flatnonzero(grid.covered.any(axis=1)),
-        np.flatnonzero(grid.covered.any(axis=0)),
-    )
     return ModelCurrent(
         grid,
         times,
@@ -278,14 +275,20 @@ def _current(
         Coverage(
             source.lon,
             source.lat,
-            (grid.west + grid.step * columns[0], grid.west + grid.step * columns[-1]),
-            (grid.south + grid.step * rows[0], grid.south + grid.step * rows[-1]),
+            _reach_of(grid.covered, grid.west, grid.step),
+            _reach_of(grid.covered.T, grid.south, grid.step),
             source.level.depths,
             None if source.times is None else (source.times[0], source.times[-1]),
         ),
         notes | {"times": note},
         (f"{velocity.u}, {velocity.v}", str(path)),
     )
+
+
+def _reach_of(covered: Booleans, first: float, step: float) -> Range:
+    """Range of the coordinates whose nearest column of the grid has data."""
+    places = np.flatnonzero(covered.any(axis=0))
+    return first + step * (float(places[0]) - 0.5), first + step * (float(places[-1]) + 0.5)
 
 
 def _since(

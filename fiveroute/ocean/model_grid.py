@@ -26,6 +26,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from fiveroute.errors import InputError
+
 __all__ = [
     "CellGrid",
     "MapGrid",
@@ -40,7 +42,8 @@ Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Booleans = NDArray[np.bool_]
 
-_FINER = 2.0  # points of the map's grid in the spacing of the model's
+_FINER = 2, 4  # points of the map's grid in the spacing of the model's, at least and at most
+_MANY, _TOO_MANY = 8e6, 1e8  # velocities that the map's grid is made finer for, and may hold
 _NEWTON_STEPS = 12
 _CLOSE = 1e-6  # cells within which Newton's method has arrived
 
@@ -94,6 +97,8 @@ class MapGrid:
         Position of the first column and row in metres.
     step
         Spacing in metres.
+    spacing
+        Spacing of the model's cells in metres.
     """
 
     uv: Floats
@@ -102,6 +107,7 @@ class MapGrid:
     west: float
     south: float
     step: float
+    spacing: float
 
 
 def cells_from_faces(
@@ -126,8 +132,8 @@ def cells_from_faces(
     u, v : array
         Components in the cells, shape (times, m, n); NaN where all faces are closed.
     """
-    shut_u = np.isnan(u).all(axis=0) if closed_u is None else closed_u
-    shut_v = np.isnan(v).all(axis=0) if closed_v is None else closed_v
+    shut_u = np.asarray(np.isnan(u).all(axis=0)) if closed_u is None else closed_u
+    shut_v = np.asarray(np.isnan(v).all(axis=0)) if closed_v is None else closed_v
     open_u, open_v = np.where(shut_u, 0.0, u), np.where(shut_v, 0.0, v)
     in_u = (open_u[..., :-1] + open_u[..., 1:]) / 2.0
     in_v = (open_v[..., :-1, :] + open_v[..., 1:, :]) / 2.0
@@ -151,7 +157,7 @@ def is_left_handed(x: Floats, y: Floats) -> bool:
 def resample(cells: CellGrid) -> MapGrid:
     """Bring the velocities of cells to a regular grid that covers them all."""
     spacing = cells.spacing
-    step = spacing / _FINER
+    step = spacing / _fineness(cells)
     west, south = (_first(part, spacing, step) for part in (cells.x, cells.y))
     columns, rows = (
         math.ceil((float(np.nanmax(part)) + spacing / 2.0 - first) / step) + 1
@@ -165,7 +171,7 @@ def resample(cells: CellGrid) -> MapGrid:
     land = covered & _on(cells.land, row, column).reshape(x.shape)
     w = _nearest_filled(w, ~covered)
     uv = np.stack((w.real, w.imag), axis=-1)
-    return MapGrid(uv, land, covered, west, south, step)
+    return MapGrid(uv, land, covered, west, south, step, spacing)
 
 
 def _on(land: Booleans, row: Floats, column: Floats) -> Booleans:
@@ -178,6 +184,19 @@ def _on(land: Booleans, row: Floats, column: Floats) -> Booleans:
             i = np.clip(np.rint(column + right), 0, last[1]).astype(np.int64)
             found |= land[j, i]
     return found
+
+
+def _fineness(cells: CellGrid) -> float:
+    """Points of the map's grid in the spacing of the cells: as many as are cheap."""
+    area = float(np.prod([np.nanmax(part) - np.nanmin(part) for part in (cells.x, cells.y)]))
+    coarse = len(cells.w) * area / cells.spacing**2
+    if coarse * _FINER[0] ** 2 > _TOO_MANY:
+        raise InputError(
+            f"takes {coarse * _FINER[0] ** 2:.1e} velocities, more than {_TOO_MANY:.0e}; "
+            "read a smaller surrounding or cut times out of the file",
+            field="reach",
+        )
+    return float(np.clip(math.floor(math.sqrt(_MANY / coarse)), *_FINER))
 
 
 def _first(coordinate: Floats, spacing: float, step: float) -> float:
@@ -214,11 +233,11 @@ def _affine_guess(cells: CellGrid, x: Floats, y: Floats) -> tuple[Floats, Floats
 def _nearest_cells(cells: CellGrid, x: Floats, y: Floats) -> tuple[Floats, Floats]:
     from scipy.spatial import cKDTree
 
-    placed = np.flatnonzero(np.isfinite(cells.x) & np.isfinite(cells.y))
-    centres = np.column_stack((cells.x.ravel()[placed], cells.y.ravel()[placed]))
+    placed = np.isfinite(cells.x) & np.isfinite(cells.y)
+    centres = np.column_stack((cells.x[placed], cells.y[placed]))
     _, nearest = cKDTree(centres).query(np.column_stack((x, y)))
-    row, column = np.divmod(placed[nearest], cells.x.shape[1])
-    return row.astype(np.float64), column.astype(np.float64)
+    row, column = np.argwhere(placed)[nearest].astype(np.float64).T
+    return row, column
 
 
 def _newton(
