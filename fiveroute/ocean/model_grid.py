@@ -164,11 +164,13 @@ def resample(cells: CellGrid) -> MapGrid:
         for part, first in ((cells.x, west), (cells.y, south))
     )
     x, y = np.meshgrid(west + step * np.arange(columns), south + step * np.arange(rows))
-    row, column = _find_cells(cells, x.ravel(), y.ravel())
-    covered = np.isfinite(row).reshape(x.shape)
-    row, column = np.nan_to_num(row), np.nan_to_num(column)
-    w = bilinear(cells.filled(), row, column).reshape(-1, *x.shape)
-    land = covered & _on(cells.land, row, column).reshape(x.shape)
+    row, column = (part.reshape(x.shape) for part in _find_cells(cells, x.ravel(), y.ravel()))
+    covered = np.isfinite(row)
+    row, column = row[covered], column[covered]
+    land = np.zeros(x.shape, dtype=bool)
+    land[covered] = _on(cells.land, row, column)
+    w = np.zeros((len(cells.w), *x.shape), dtype=np.complex128)
+    w[:, covered] = bilinear(cells.filled(), row, column)
     w = _nearest_filled(w, ~covered)
     uv = np.stack((w.real, w.imag), axis=-1)
     return MapGrid(uv, land, covered, west, south, step, spacing)
@@ -221,11 +223,9 @@ def _find_cells(cells: CellGrid, x: Floats, y: Floats) -> tuple[Floats, Floats]:
 
 def _affine_guess(cells: CellGrid, x: Floats, y: Floats) -> tuple[Floats, Floats]:
     """Rows and columns of positions on the grid of parallelograms closest to the cells'."""
-    row, column = np.indices(cells.x.shape)
     placed = np.isfinite(cells.x) & np.isfinite(cells.y)
     centres = np.column_stack((cells.x[placed], cells.y[placed], np.ones(placed.sum())))
-    known = np.column_stack((row[placed], column[placed]))
-    fit = np.linalg.lstsq(centres, known, rcond=None)[0]
+    fit = np.linalg.lstsq(centres, np.argwhere(placed), rcond=None)[0]
     guess = np.column_stack((x, y, np.ones(len(x)))) @ fit
     return guess[:, 0], guess[:, 1]
 
@@ -236,8 +236,8 @@ def _nearest_cells(cells: CellGrid, x: Floats, y: Floats) -> tuple[Floats, Float
     placed = np.isfinite(cells.x) & np.isfinite(cells.y)
     centres = np.column_stack((cells.x[placed], cells.y[placed]))
     _, nearest = cKDTree(centres).query(np.column_stack((x, y)))
-    row, column = np.argwhere(placed)[nearest].astype(np.float64).T
-    return row, column
+    found = np.argwhere(placed)[nearest].astype(np.float64)
+    return found[:, 0], found[:, 1]
 
 
 def _newton(
@@ -279,23 +279,26 @@ def bilinear(values: Complexes, row: Floats, column: Floats) -> Complexes:
     Parameters
     ----------
     values
-        Shape (..., rows, columns).
+        Shape (times, rows, columns).
     row, column
         Shape (n,).
 
     Returns
     -------
     array
-        Shape (..., n).
+        Shape (times, n).
     """
-    rows, columns = values.shape[-2:]
+    times, rows, columns = values.shape
     row, column = np.clip(row, 0.0, rows - 1.0), np.clip(column, 0.0, columns - 1.0)
     j = np.minimum(row.astype(np.int64), rows - 2)
     i = np.minimum(column.astype(np.int64), columns - 2)
     r, s = row - j, column - i
-    south = (1.0 - s) * values[..., j, i] + s * values[..., j, i + 1]
-    north = (1.0 - s) * values[..., j + 1, i] + s * values[..., j + 1, i + 1]
-    return np.asarray((1.0 - r) * south + r * north)
+    flat, first = values.reshape(times, -1), j * columns + i
+    result: Complexes = (1.0 - r) * (1.0 - s) * flat.take(first, axis=1)
+    result += (1.0 - r) * s * flat.take(first + 1, axis=1)
+    result += r * (1.0 - s) * flat.take(first + columns, axis=1)
+    result += r * s * flat.take(first + columns + 1, axis=1)
+    return result
 
 
 def _nearest_filled(values: Complexes, gaps: Booleans) -> Complexes:

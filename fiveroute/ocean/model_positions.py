@@ -30,6 +30,7 @@ Integers = NDArray[np.int64]
 
 _EARTH = 6.371e6  # mean radius in metres
 _LENGTHS = {"m": 1.0, "meter": 1.0, "meters": 1.0, "metre": 1.0, "metres": 1.0, "km": 1e3}
+_PROJ = ("proj4", "proj4_params", "proj4text")  # attributes that hold a PROJ string
 _ANGLES = ("degree", "degrees", "degrees_east", "degrees_north")
 
 
@@ -193,17 +194,12 @@ def _projection(data: xr.Dataset, name: str) -> pyproj.CRS | None:
         return None
     import pyproj
 
-    attributes = data[mapping].attrs
-    plain = {key: _plain(value) for key, value in attributes.items()}
+    attributes = {str(key): _plain(value) for key, value in data[mapping].attrs.items()}
+    proj = next((attributes[key] for key in _PROJ if key in attributes), None)
     try:
-        return pyproj.CRS.from_cf(plain)
+        return pyproj.CRS.from_cf(attributes) if proj is None else pyproj.CRS.from_proj4(str(proj))
     except (pyproj.exceptions.CRSError, KeyError) as error:
-        text = attributes.get("proj4", attributes.get("proj4_params"))
-        if text is None:
-            raise InputError(
-                f"is no projection that can be read ({error})", field=mapping
-            ) from error
-        return pyproj.CRS.from_proj4(str(text))
+        raise InputError(f"is no projection that can be read ({error})", field=mapping) from error
 
 
 def _plain(value: object) -> object:

@@ -55,8 +55,9 @@ def test_norkyst_stands_65_degrees_from_east() -> None:
     np.testing.assert_allclose(np.degrees(turn), 70.0 - lon, atol=1e-3)  # lon_0 of the map
     expected = on_the_map(read, lon, lat, (u[12] + 1j * v[12]) * np.exp(1j * turn))
     assert (np.isnan(expected[0]) == np.isnan(u[12] + v[12])).all()
-    np.testing.assert_allclose(read.cells.w[12].real, expected[0], atol=1e-4)
-    np.testing.assert_allclose(read.cells.w[12].imag, expected[1], atol=1e-4)
+    # on the ellipsoid the axes of the sphere's map turn by 0.03 degrees
+    np.testing.assert_allclose(read.cells.w[12].real, expected[0], atol=1e-3)
+    np.testing.assert_allclose(read.cells.w[12].imag, expected[1], atol=1e-3)
     np.testing.assert_allclose(np.abs(read.cells.w), np.hypot(u, v), rtol=1e-6)
 
 
