@@ -67,7 +67,7 @@ def command(
     from fiveroute.ocean.stated import stated_current
     from fiveroute.tiers.pathing import plan_path, waters_of
 
-    require_output(picture, force)
+    require_output(picture)
     mission = read_instance(instance)
     ends = [_position(mission, name, field) for name, field in ((origin, "FROM"), (goal, "TO"))]
     way = float(np.hypot(*(ends[1] - ends[0]))) / mission.fleet.speed
@@ -83,7 +83,7 @@ def command(
     if picture is not None:
         from fiveroute.experiments.pictures import path_map, save
 
-        save(path_map(waters, planned, f"{mission.name}: {origin} to {goal}"), picture, force)
+        save(path_map(waters, planned, f"{mission.name}: {origin} to {goal}"), picture)
     answer = answers.path_answer(mission, (origin, goal), planned, seconds)
     if as_json:
         answers.print_json(answer)

@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from fiveroute.cli import options
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from fiveroute.check import Violation
 
 __all__ = ["command"]
 
@@ -33,7 +40,8 @@ def command(
 
     mission = read_instance(instance)
     filed = read_plan(plan, mission)
-    travel, violations = None, []
+    travel: NDArray[np.float64] | None = None
+    violations: list[Violation] = []
     if mission.has_ocean and not straight_lines:
         travel, violations = judged_legs(mission, filed, instance.parent)
     size = mission.fleet_size or max(len(filed.routes), 1)

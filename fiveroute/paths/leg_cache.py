@@ -11,7 +11,6 @@ from __future__ import annotations
 import hashlib
 import os
 import zipfile
-from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
@@ -53,10 +52,9 @@ def table_key(waters: Waters, points: NDArray[np.float64], source: str, seed: in
         Seed of the random numbers.
     """
     digest = hashlib.sha256(f"{source} {seed} {waters.speed} {waters.turning_radius}".encode())
-    parts: Iterable[object] = (*waters.grid, *waters.barriers, points)
-    for part in parts:
-        digest.update(np.ascontiguousarray(part).tobytes())
-        digest.update(str(np.shape(part)).encode())
+    for part in (*waters.grid, *waters.barriers, points):
+        values = np.ascontiguousarray(part)
+        digest.update(f"{values.dtype} {values.shape}".encode() + values.tobytes())
     return digest.hexdigest()
 
 
