@@ -46,6 +46,7 @@ def judged_legs(
 
     last = len(mission.nodes) + 1
     plan = Plan.of([node for node in route if node < last] for route in filed.plan.routes)
+    filed.require_currents(folder)
     current = stated_current(mission, folder)
     if filed.tracks is None:
         return _fastest(mission, plan, current), []

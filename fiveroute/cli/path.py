@@ -67,7 +67,7 @@ def command(
     from fiveroute.ocean.stated import stated_current
     from fiveroute.tiers.pathing import plan_path, waters_of
 
-    require_output(picture)
+    require_output(picture, force)
     mission = read_instance(instance)
     ends = [_position(mission, name, field) for name, field in ((origin, "FROM"), (goal, "TO"))]
     way = float(np.hypot(*(ends[1] - ends[0]))) / mission.fleet.speed

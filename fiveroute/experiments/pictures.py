@@ -96,7 +96,8 @@ def _draw_barriers(axis: Axes, waters: Waters) -> None:
         rows, columns = barriers.land.shape
         x = (barriers.land_west + barriers.land_step * np.arange(columns)) / 1000.0
         y = (barriers.land_south + barriers.land_step * np.arange(rows)) / 1000.0
-        axis.contourf(x, y, barriers.land, levels=[-np.inf, 0.0], colors=[_LAND], zorder=2)
+        deepest = min(float(barriers.land.min()), -1.0)
+        axis.contourf(x, y, barriers.land, levels=[deepest, 0.0], colors=[_LAND], zorder=2)
 
 
 def route_panels(instance: Instance, panels: Sequence[Panel]) -> Figure:

@@ -7,6 +7,7 @@ it is never taken for a plan of another instance.
 
 from __future__ import annotations
 
+import hashlib
 import itertools
 from dataclasses import fields
 from pathlib import Path
@@ -23,6 +24,7 @@ from fiveroute.formats.files import read_text, write_text_atomically
 from fiveroute.formats.json_document import layout, read_document
 from fiveroute.formats.native import (
     InstanceDocument,
+    currents_file,
     instance_document,
     instance_hash,
     relocated,
@@ -67,6 +69,8 @@ class PlanFile:
     paths
         For every route the waypoints (x, y) in metres of its legs, from the start to the
         destination; None for straight lines in still water.
+    currents_hash
+        SHA-256 of the instance's file of currents in hexadecimal; None without one.
     """
 
     instance: Instance
@@ -79,6 +83,7 @@ class PlanFile:
     seed: int | None
     version: str
     paths: tuple[tuple[_Path, ...], ...] | None = None
+    currents_hash: str | None = None
 
     def __post_init__(self) -> None:
         if len(self.durations) != len(self.routes):
@@ -175,6 +180,37 @@ class PlanFile:
                 field="instance_hash",
             )
 
+    def require_currents(self, folder: Path) -> None:
+        """Refuse another file of currents than the one that the plan was made in.
+
+        Parameters
+        ----------
+        folder
+            Folder of the instance.
+        """
+        if self.currents_hash is None:
+            return
+        found = _currents_hash(self.instance, folder / "instance")
+        if found != self.currents_hash:
+            raise InputError(
+                f"is that of another ocean: the file {self.instance.ocean.currents.file!r} has "
+                f"the hash {(found or 'none')[:12]}; use the file it was made with, or plan anew",
+                field="currents_hash",
+                value=self.currents_hash[:12],
+            )
+
+
+def _currents_hash(instance: Instance, source: Path) -> str | None:
+    """SHA-256 of the file of currents that an instance from a file names; None without one."""
+    file = currents_file(instance, source)
+    if file is None:
+        return None
+    try:
+        with file.open("rb") as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except OSError as error:
+        raise InputError(f"cannot be read ({error.strerror})", file=file) from None
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=_STRICT)
 class _PlanDocument(PlanFile):
@@ -246,4 +282,6 @@ def write_plan(plan: PlanFile, path: Path, force: bool = False, source: Path | N
     }
     if plan.paths is not None:
         document["paths"] = plan.paths
+        if source is not None and (digest := _currents_hash(plan.instance, source)) is not None:
+            document["currents_hash"] = digest
     write_text_atomically(path, layout(document) + "\n", force)

@@ -35,7 +35,7 @@ def stated_current(instance: Instance, folder: Path | None = None) -> Superposit
     if currents.uniform is not None:
         parts.append(UniformCurrent(currents.uniform.u, currents.uniform.v))
     if currents.file is not None:
-        from fiveroute.ocean.model_file import read_current
+        from fiveroute.ocean.model_current import read_current
 
         file = (folder or Path()) / currents.file
         parts.append(
