@@ -36,7 +36,7 @@ from fiveroute.ocean.barriers import Barriers, clearance, leg_clearance
 from fiveroute.ocean.current_grid import CurrentGrid, velocity
 from fiveroute.paths.legs import leg_time
 
-__all__ = ["Labels", "Lattice", "Sea", "no_labels", "search", "stencil"]
+__all__ = ["Labels", "Lattice", "Sea", "no_labels", "search", "stencil", "surroundings"]
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -147,29 +147,52 @@ def stencil(radius: int) -> Integers:
     return np.array(moves, dtype=np.int64)
 
 
+def surroundings(radius: int) -> Integers:
+    """Moves (up, across) from a cell's south-western point to all within reach, shape (k, 2)."""
+    reach = range(-radius, radius + 2)
+    return np.array([(up, across) for up in reach for across in reach], dtype=np.int64)
+
+
 @kernel
 def search(
-    sea: Sea, moves: Integers, start: Floats, goals: Floats, begin: float, labels: Labels
+    sea: Sea,
+    moves: Integers,
+    around: Integers,
+    start: Floats,
+    goals: Floats,
+    begin: float,
+    labels: Labels,
 ) -> None:
-    """Fill fresh labels until all goals, shape (g, 2), have their last or none can be reached."""
-    origin_point = sea.lattice.rows * sea.lattice.columns
-    radius, missing = moves.max(), len(goals)
-    around = np.array(
-        [(up, across) for up in range(-radius, radius + 2) for across in range(-radius, radius + 2)]
-    )
-    _improve(labels, origin_point, -1, begin, begin)
+    """Fill fresh labels until all goals have their last, or none can be reached any more.
+
+    Parameters
+    ----------
+    sea
+        The ocean and the lattice.
+    moves, around
+        The stencil, and the surroundings of the start, shape (k, 2).
+    start, goals
+        Positions in metres, shape (2,) and (g, 2).
+    begin
+        When all paths begin, in seconds.
+    labels
+        Of the lattice's points, the start and the goals; filled.
+    """
+    start_point = sea.lattice.rows * sea.lattice.columns
+    reach, missing = moves.max() * sea.lattice.step, len(goals)
+    _improve(labels, start_point, -1, begin, begin)
     while labels.size[0] > 0 and missing > 0:
         point = _pop(labels)
-        if point > origin_point:
+        if point > start_point:
             missing -= 1
             continue
-        first = point == origin_point
+        first = point == start_point
         origin = _origin(sea, point, start, labels.time[point])
         _spread(sea, origin, around if first else moves, goals, labels)
         for k in range(len(goals)):
             x, y = goals[k]
-            if first or max(abs(x - origin.x), abs(y - origin.y)) <= radius * sea.lattice.step:
-                _sail(sea, origin, origin_point + 1 + k, x, y, goals, labels)
+            if first or max(abs(x - origin.x), abs(y - origin.y)) <= reach:
+                _sail(sea, origin, start_point + 1 + k, x, y, goals, labels)
 
 
 @kernel
@@ -240,7 +263,7 @@ def _improve(labels: Labels, point: int, parent: int, time: float, key: float) -
 @kernel
 def _pop(labels: Labels) -> int:
     """Take the first point from the queue."""
-    first = labels.heap[0]
+    first: int = labels.heap[0]
     labels.place[first] = -1
     labels.size[0] -= 1
     size, place = labels.size[0], 0

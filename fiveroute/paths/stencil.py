@@ -17,8 +17,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fiveroute.errors import InputError
-from fiveroute.ocean.current_grid import CurrentGrid, Region
-from fiveroute.paths.grid_search import Labels, Lattice, Sea, no_labels, search, stencil
+from fiveroute.ocean.current_grid import Region
+from fiveroute.paths.current_bounds import fastest_bound, gradient_bound
+from fiveroute.paths.grid_search import (
+    Labels,
+    Lattice,
+    Sea,
+    no_labels,
+    search,
+    stencil,
+    surroundings,
+)
 from fiveroute.paths.legs import Waters, track_time
 from fiveroute.paths.straighten import straighten
 
@@ -28,8 +37,6 @@ Floats = NDArray[np.float64]
 
 _CELLS = 120  # along the longer side of the region, unless told
 _MARGIN = 0.5  # of the longer side of the box around start and goals, where there is no region
-_OVERSHOOT = 25.0 / 16.0  # of cubic convolution over the grid's largest value, both ways
-_STEEPNESS = 1.5 * 1.25  # of its derivative over the grid's largest difference
 _LONGEST_LEG = 1.0  # of a straightened path, in steps
 
 
@@ -75,10 +82,10 @@ def grid_path(
     radius
         Reach of the stencil in cells.
     straight
-        Whether to straighten the path.
+        Whether to straighten the path, which takes about 10 ms.
     """
     return grid_paths(
-        waters, start, [goal], begin=begin, step=step, radius=radius, straight=straight
+        waters, start, np.atleast_2d(goal), begin=begin, step=step, radius=radius, straight=straight
     )[0]
 
 
@@ -120,12 +127,13 @@ def grid_paths(
         raise InputError("a stencil reaches at least one cell", field="radius", value=radius)
     first = np.array(start, dtype=np.float64)
     last = np.array(goals, dtype=np.float64).reshape(-1, 2)
+    if not (np.isfinite(first).all() and np.isfinite(last).all()):
+        raise InputError("start and goals need finite positions")
     lattice = _lattice(_region(waters, np.vstack([first, last])), step)
     sea = _sea(waters, lattice)
     labels = no_labels(lattice.rows * lattice.columns + 1 + len(last))
-    search(sea, stencil(radius), first, last, begin, labels)
-    places = lattice.rows * lattice.columns + 1 + np.arange(len(last))
-    tracks = [_track(labels, lattice, first, last, int(place)) for place in places]
+    search(sea, stencil(radius), surroundings(radius), first, last, begin, labels)
+    tracks = [_track(labels, lattice, first, last, k) for k in range(len(last))]
     paths = [_path(waters, track, begin) for track in tracks]
     if straight:
         longest = _LONGEST_LEG * lattice.step
@@ -171,34 +179,19 @@ def _lattice(region: Region, step: float | None) -> Lattice:
 
 def _sea(waters: Waters, lattice: Lattice) -> Sea:
     grid = waters.grid
-    return Sea(
-        grid,
-        waters.barriers,
-        lattice,
-        waters.speed,
-        _OVERSHOOT * grid.fastest,
-        _gradient(grid) if grid.is_steady else math.inf,
-    )
+    gradient = gradient_bound(grid) if grid.is_steady else math.inf
+    return Sea(grid, waters.barriers, lattice, waters.speed, fastest_bound(grid), gradient)
 
 
-def _gradient(grid: CurrentGrid) -> float:
-    """Bound on the change of a steady current with the distance, in 1/s."""
-    east, north = (
-        float(np.hypot(*np.moveaxis(np.diff(grid.uv[0], axis=axis), -1, 0)).max(initial=0.0))
-        for axis in (1, 0)
-    )
-    return _STEEPNESS * math.hypot(east, north) / grid.step
-
-
-def _track(labels: Labels, lattice: Lattice, start: Floats, goals: Floats, point: int) -> Floats:
-    """Points from the start to a point; none if it was not reached."""
-    if not math.isfinite(labels.time[point]):
+def _track(labels: Labels, lattice: Lattice, start: Floats, goals: Floats, goal: int) -> Floats:
+    """Points from the start to a goal; none if it was not reached."""
+    first = lattice.rows * lattice.columns
+    if not math.isfinite(labels.time[first + 1 + goal]):
         return np.zeros((0, 2))
-    points = lattice.rows * lattice.columns
-    track = [goals[point - points - 1]]
-    while (point := int(labels.parent[point])) < points:
+    track, point = [goals[goal]], labels.parent[first + 1 + goal]
+    while point != first:
         row, column = divmod(point, lattice.columns)
-        track.append(
-            np.array([lattice.west, lattice.south]) + lattice.step * np.array([column, row])
-        )
+        x, y = lattice.west + column * lattice.step, lattice.south + row * lattice.step
+        track.append(np.array([x, y]))
+        point = labels.parent[point]
     return np.array([*track, start][::-1])

@@ -26,16 +26,16 @@ from fiveroute.paths.legs import leg_time
 __all__ = ["straighten"]
 
 Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
 
 _SMALLEST_MOVE = 0.004  # of the longest leg, sideways
 _SWEEPS = 100  # at most, with one distance
 
 
-@kernel
 def straighten(
     grid: CurrentGrid, barriers: Barriers, track: Floats, t: float, speed: float, longest: float
 ) -> Floats:
-    """A path that arrives no later, of legs that are at most `longest` metres long.
+    """A path that arrives no later, of legs that are hardly longer than `longest` metres.
 
     Parameters
     ----------
@@ -48,47 +48,52 @@ def straighten(
     speed
         Speed through the water in metres per second.
     longest
-        Length of a leg in metres.
+        Length of a leg in metres that is not halved any more.
     """
-    track = _shortcut(grid, barriers, track, t, speed)
-    _relax(grid, barriers, track, t, speed, longest)
-    while _longest_leg(track) > longest:
-        track = _halved(track, longest)
-        _relax(grid, barriers, track, t, speed, longest)
-    return track
+    parent, point = _shortcut(grid, barriers, track, t, speed), len(track) - 1
+    kept = [point]
+    while point > 0:
+        point = int(parent[point])
+        kept.append(point)
+    track = track[kept[::-1]]
+    while True:
+        lengths = np.hypot(*np.diff(track, axis=0).T)
+        _relax(grid, barriers, track, t, speed, lengths.max() / 2.0, _SMALLEST_MOVE * longest)
+        long = np.flatnonzero(lengths > longest)
+        if not long.size:
+            return track
+        track = np.insert(track, long + 1, (track[long] + track[long + 1]) / 2.0, axis=0)
 
 
 @kernel
 def _shortcut(
     grid: CurrentGrid, barriers: Barriers, track: Floats, t: float, speed: float
-) -> Floats:
-    """The earliest way by straight legs from point to any later point."""
-    last = len(track) - 1
-    arrival, parent = np.full(last + 1, math.inf), np.zeros(last + 1, dtype=np.int64)
+) -> Integers:
+    """Where each point is earliest reached from, by straight legs from point to any later one."""
+    arrival, parent = np.full(len(track), math.inf), np.zeros(len(track), dtype=np.int64)
     arrival[0] = t
-    for i in range(last):
+    for i in range(len(track)):
         x0, y0 = track[i]
-        for j in range(i + 1, last + 1):
+        for j in range(i + 1, len(track)):
             x1, y1 = track[j]
             time = arrival[i] + leg_time(grid, x0, y0, x1, y1, arrival[i], speed)
-            if time <= arrival[j] and (
-                j == i + 1 or leg_clearance(barriers, x0, y0, x1, y1) >= 0.0
-            ):
+            if time < arrival[j] and leg_clearance(barriers, x0, y0, x1, y1) >= 0.0:
                 arrival[j], parent[j] = time, i
-    kept, point = [last], last
-    while point > 0:
-        point = parent[point]
-        kept.append(point)
-    return track[np.array(kept[::-1])]
+    return parent
 
 
 @kernel
 def _relax(
-    grid: CurrentGrid, barriers: Barriers, track: Floats, t: float, speed: float, furthest: float
+    grid: CurrentGrid,
+    barriers: Barriers,
+    track: Floats,
+    t: float,
+    speed: float,
+    distance: float,
+    smallest: float,
 ) -> None:
-    """Move the inner points sideways, in place, while it helps."""
-    distance = furthest
-    while distance > _SMALLEST_MOVE * furthest:
+    """Move the inner points sideways by a distance and less, in place, while it helps."""
+    while distance > smallest:
         for _ in range(_SWEEPS):
             if not _sweep(grid, barriers, track, t, speed, distance):
                 break
@@ -102,57 +107,26 @@ def _sweep(
     """Try to move every inner point by a distance, in place; whether any moved."""
     moved = False
     for k in range(1, len(track) - 1):
-        before, here, after = track[k - 1], track[k].copy(), track[k + 1]
-        east, north = after[0] - before[0], after[1] - before[1]
-        share = distance / max(math.hypot(east, north), distance)
-        best = _detour(grid, before, here, after, t, speed)
+        x0, y0 = track[k - 1]
+        x, y = track[k]
+        x2, y2 = track[k + 1]
+        share = distance / max(math.hypot(x2 - x0, y2 - y0), distance)
+        first = leg_time(grid, x0, y0, x, y, t, speed)
+        best = first + leg_time(grid, x, y, x2, y2, t + first, speed)
         for side in (-share, share):
-            there = np.array([here[0] - side * north, here[1] + side * east])
-            time = _detour(grid, before, there, after, t, speed)
-            if time < best and _keeps_clear(barriers, before, there, after):
-                best, moved = time, True
-                track[k] = there
-        t += leg_time(grid, before[0], before[1], track[k, 0], track[k, 1], t, speed)
+            x1, y1 = x - side * (y2 - y0), y + side * (x2 - x0)
+            time = leg_time(grid, x0, y0, x1, y1, t, speed)
+            later = time + leg_time(grid, x1, y1, x2, y2, t + time, speed)
+            if later < best and _keeps_clear(barriers, x0, y0, x1, y1, x2, y2):
+                best, first, moved = later, time, True
+                track[k] = x1, y1
+        t += first
     return moved
 
 
 @kernel
-def _detour(
-    grid: CurrentGrid, before: Floats, via: Floats, after: Floats, t: float, speed: float
-) -> float:
-    """Time of two legs begun at time t."""
-    time = leg_time(grid, before[0], before[1], via[0], via[1], t, speed)
-    return time + leg_time(grid, via[0], via[1], after[0], after[1], t + time, speed)
-
-
-@kernel
-def _keeps_clear(barriers: Barriers, before: Floats, via: Floats, after: Floats) -> bool:
-    return (
-        leg_clearance(barriers, before[0], before[1], via[0], via[1]) >= 0.0
-        and leg_clearance(barriers, via[0], via[1], after[0], after[1]) >= 0.0
-    )
-
-
-@kernel
-def _longest_leg(track: Floats) -> float:
-    longest = 0.0
-    for k in range(len(track) - 1):
-        longest = max(
-            longest, math.hypot(track[k + 1, 0] - track[k, 0], track[k + 1, 1] - track[k, 1])
-        )
-    return longest
-
-
-@kernel
-def _halved(track: Floats, longest: float) -> Floats:
-    """The same path, with a point in the middle of every leg that is too long."""
-    points = np.empty((2 * len(track) - 1, 2))
-    count = 0
-    for k in range(len(track) - 1):
-        points[count] = track[k]
-        count += 1
-        if math.hypot(track[k + 1, 0] - track[k, 0], track[k + 1, 1] - track[k, 1]) > longest:
-            points[count] = (track[k] + track[k + 1]) / 2.0
-            count += 1
-    points[count] = track[-1]
-    return points[: count + 1]
+def _keeps_clear(
+    barriers: Barriers, x0: float, y0: float, x1: float, y1: float, x2: float, y2: float
+) -> bool:
+    before = leg_clearance(barriers, x0, y0, x1, y1)
+    return before >= 0.0 and leg_clearance(barriers, x1, y1, x2, y2) >= 0.0

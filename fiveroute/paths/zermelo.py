@@ -34,10 +34,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from fiveroute.kernels import kernel
 from fiveroute.ocean.current_grid import CurrentGrid, velocity
-from fiveroute.paths.legs import Waters, leg_time
+from fiveroute.paths.legs import Waters, track_time
 
 __all__ = ["Extremal", "zermelo_path"]
 
+Flags = NDArray[np.bool_]
 Floats = NDArray[np.float64]
 
 _HEADINGS = 720  # in the first fan
@@ -85,11 +86,11 @@ class _Task(NamedTuple):
 
 
 class _Fan(NamedTuple):
-    """First headings from `heading` by `width`, `count` gaps in all, followed for `horizon`."""
+    """First headings from `heading` by `width`, with `gaps` between, followed for `horizon`."""
 
     heading: float
     width: float
-    count: int
+    gaps: int
     horizon: float
 
 
@@ -123,7 +124,7 @@ def zermelo_path(
     if distance == 0.0:
         return Extremal(np.array([first, last]), 0.0, 0.0)
     if horizon is None:
-        direct = leg_time(waters.grid, *first, *last, begin, waters.speed)
+        direct = track_time(waters.grid, np.array([first, last]), begin, waters.speed)
         horizon = _SLACK * min(direct, _LAST * distance / waters.speed)
     if interval is None:
         interval = min(waters.grid.step / waters.speed / _STEPS_A_CELL, horizon / 64)
@@ -139,36 +140,38 @@ def zermelo_path(
 
 def _first_hit(task: _Task, fan: _Fan, depth: int) -> tuple[float, float] | None:
     """First heading and duration of the earliest extremal of a fan that hits the goal."""
-    best = None
-    for heading, time in sorted(_brackets(task, fan), key=itemgetter(1)):
-        if best is not None and time > best[1] + task.interval:
+    found = _brackets(task, fan, math.ceil(fan.horizon / task.interval))
+    hits: list[tuple[float, float]] = []
+    for step, gap in np.argwhere(found.T):  # in the order of time
+        if hits and step * task.interval > _earliest(hits)[1] + task.interval:
             break
-        hit = _refined(task, heading + 0.5 * fan.width, time + 0.5 * task.interval)
-        if not math.isfinite(hit[1]):
-            if not depth:
-                continue
+        heading = fan.heading + gap * fan.width
+        hit = _refined(task, heading + 0.5 * fan.width, (step + 0.5) * task.interval)
+        if not math.isfinite(hit[1]) and depth:
             narrow = _Fan(heading, fan.width / _NARROWER, _NARROWER, fan.horizon)
-            hit = _first_hit(task, narrow, depth - 1)
-        if hit is not None and (best is None or hit[1] < best[1]):
-            best = hit
-    return best
+            hit = _first_hit(task, narrow, depth - 1) or hit
+        if math.isfinite(hit[1]):
+            hits.append(hit)
+    return _earliest(hits) if hits else None
+
+
+def _earliest(hits: list[tuple[float, float]]) -> tuple[float, float]:
+    return min(hits, key=itemgetter(1))
 
 
 @kernel
-def _brackets(task: _Task, fan: _Fan) -> list[tuple[float, float]]:
-    """First heading and time before every gap between headings and times that has the goal."""
-    steps, found = math.ceil(fan.horizon / task.interval), [(0.0, 0.0)]
-    horizon = steps * task.interval
-    right = extremal(task, fan.heading, horizon, steps)
-    for k in range(fan.count):
-        left = extremal(task, fan.heading + (k + 1) * fan.width, horizon, steps)
-        for step in range(steps):
-            if _holds(right[step], left[step], left[step + 1], task.goal) or _holds(
-                right[step], left[step + 1], right[step + 1], task.goal
-            ):
-                found.append((fan.heading + k * fan.width, step * task.interval))
+def _brackets(task: _Task, fan: _Fan, steps: int) -> Flags:
+    """Which gaps between first headings have the goal in which intervals, shape (gaps, steps)."""
+    found = np.zeros((fan.gaps, steps), dtype=np.bool_)
+    right = extremal(task, fan.heading, steps * task.interval, steps)
+    for k in range(fan.gaps):
+        left = extremal(task, fan.heading + (k + 1) * fan.width, steps * task.interval, steps)
+        for i in range(steps):
+            found[k, i] = _holds(right[i], left[i], left[i + 1], task.goal) or _holds(
+                right[i], left[i + 1], right[i + 1], task.goal
+            )
         right = left
-    return found[1:]
+    return found
 
 
 @kernel
@@ -180,7 +183,7 @@ def _holds(a: Floats, b: Floats, c: Floats, point: Floats) -> bool:
     x, y = point[0] - a[0], point[1] - a[1]
     to_b = (x * (c[1] - a[1]) - y * (c[0] - a[0])) / area
     to_c = (y * (b[0] - a[0]) - x * (b[1] - a[1])) / area
-    return to_b >= -_WIDER and to_c >= -_WIDER and to_b + to_c <= 1.0 + _WIDER
+    return bool(to_b >= -_WIDER and to_c >= -_WIDER and to_b + to_c <= 1.0 + _WIDER)
 
 
 @kernel
