@@ -28,7 +28,7 @@ __all__ = ["straighten"]
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-_SMALLEST_MOVE = 0.004  # of the longest leg, sideways
+_SMALLEST_MOVE = 0.004  # sideways, of the longest leg in the end
 _SWEEPS = 100  # at most, with one distance
 
 

@@ -33,8 +33,13 @@ bounded in closed form by one number, the Lipschitz constant G of the current:
 
   which is 1 plus a quadratic e0 + e1 |n| - e2 n^2, of maximum E = e0 + e1^2 / (4 e2).
 
-E is of second order, about (G L / V)^2: as small as the gain that is to be had by bending the path.
-The bound holds in steady currents; barriers only take paths away, so the leg itself must be clear.
+E is of second order in G L / V, as is the gain that bending the path can bring. The bound holds in
+steady currents; barriers only take paths away, so that it is enough that the leg itself is clear.
+
+References
+----------
+C. Carathéodory, "Variationsrechnung und partielle Differentialgleichungen erster Ordnung",
+Teubner 1935 (calibrations). E. Zermelo 1931, doi 10.1002/zamm.19310110205 (the problem).
 """
 
 from __future__ import annotations
@@ -158,10 +163,8 @@ def _straight_gap(
     for _ in range(_ROUNDS):
         half = max(0.5 * (speed + fastest) * time, 0.5 * length)
         across = math.sqrt(half**2 - 0.25 * length**2)
-        width, height = (
-            math.hypot(half * east, across * north),
-            math.hypot(half * north, across * east),
-        )
+        width = math.hypot(half * east, across * north)
+        height = math.hypot(half * north, across * east)
         gradient = gradient_within(grid, 0, x - width, y - height, x + width, y + height)
         fastest = min(fastest, math.hypot(u, v) + gradient * half)
     flow = u * east + v * north, v * east - u * north
@@ -177,7 +180,11 @@ def _excess(
     half: float,
     across: float,
 ) -> float:
-    """E from the flow along and across in the middle, m, G, and the half axes S and N."""
+    """E from the flow along and across in the middle, m, G, and the half axes S and N.
+
+    `ahead` and `slowest` bound w and g from below, `tilt` is B, `bend` bounds V / (2 |p|), and
+    e2 = inward k - outward k^2.
+    """
     change = gradient * half
     sideways = abs(flow[1]) + change
     if sideways >= speed:
@@ -191,11 +198,11 @@ def _excess(
         1.0 / (ahead * slowest)
         + sideways**2 * (1.0 / (ahead**3 * slowest) + 1.0 / (ahead**2 * slowest**2)),
     )
-    bend = 0.5 * speed * (speed + fastest)  # V / (2 |p|) at most
+    bend = 0.5 * speed * (speed + fastest)
     inward = slowest - gradient * (2.0 * half + across)
     if inward <= 0.0:
         return math.inf
     outward = bend * (across**2 + 4.0 * half**2)
-    k = inward / (2.0 * outward)  # makes e2 = inward k - outward k^2 largest
+    k = inward / (2.0 * outward)  # makes e2 largest
     e1 = 4.0 * bend * k * half * tilt + gradient * (speed / (ahead * slowest) + tilt)
     return bend * tilt**2 + e1**2 / (2.0 * inward * k)

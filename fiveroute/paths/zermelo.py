@@ -12,8 +12,8 @@ in steady and unsteady currents alike. So all candidates, the extremals from a s
 their first heading. A fan of them is integrated (Runge and Kutta's rule of fourth order);
 wherever two neighbours enclose the goal between two steps, the heading and the time that hit it
 are found by Newton's method, in a narrower fan if it fails. The fastest path is the extremal
-that hits the goal first. Between two steps the current's derivatives are taken from its grid by
-central differences, exact to about nine digits.
+that hits the goal first. The current's derivatives are central differences of its interpolation,
+over a thousandth of a cell.
 
 References
 ----------
@@ -46,7 +46,7 @@ _NARROWER = 24  # in each fan between two neighbours
 _DEPTH = 3  # of fans within fans
 _STEPS_A_CELL = 4  # time steps in which still water would be crossed from grid point to point
 _SLACK = 1.01  # of the horizon over the time of the straight leg
-_LAST = 10.0  # horizon where the straight leg cannot be sailed, in its times in still water
+_LAST = 10.0  # longest horizon, in times of the straight leg in still water
 _NEWTON = 12  # iterations at most
 _WIDER = 0.1  # by which triangles are taken larger, so that no hit falls between two
 _HIT = 1e-9  # of the distance to the goal
@@ -115,7 +115,7 @@ def zermelo_path(
         When the path begins, in seconds.
     horizon
         How long an extremal is followed, in seconds; None takes the time of the straight leg,
-        which is never faster, or ten times that in still water if it cannot be sailed.
+        which is never faster, and at most ten times that in still water.
     interval
         Time step in seconds; None takes a quarter of that for a cell of the current's grid.
     """
