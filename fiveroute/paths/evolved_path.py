@@ -62,11 +62,15 @@ Variant = Literal["l-shade", "rand/1/bin"]
 _SLICE = 20_000  # paths looked at between two looks at the clock
 _BUFFER = 1e-4  # clearance that is planned for, as a share of the line
 _TURN_RESERVE = 1.02  # turning radius that is planned for
-_GUARDS, _WAYPOINTS = 1024, 256  # points of a path where clearance is taken; points handed back
+_GUARDS = 32  # points a span where clearance is taken while paths evolve
+_DENSER = 4  # times as many in the descent
+_WAYPOINTS = 512  # points of a path that are handed back
 _CELLS_A_PART = 4.0  # grid cells to a part of the quadrature with three nodes
 _CELLS_A_SPAN, _FEWEST_SPANS, _MOST_SPANS = 10.0, 2, 6
 _REACH = 0.4  # least bound of the genes, as a share of the line
-_WEIGHTS = (0.02, 0.2, 2.0)  # of the violation, one after the other until a path keeps the rules
+_WEIGHT = 0.02  # of the violation in the merit of a path
+_SAFER = 2.0, 5.0  # factors of buffer and weight, again until the track keeps the rules
+_ATTEMPTS = 5
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,6 +99,7 @@ class DifferentialEvolution:
     evaluations: int = 720
     spans: int | None = None
     halvings: int = 2
+    first_steps: int = 6
     steps: int = 30
 
     def __post_init__(self) -> None:
@@ -174,7 +179,7 @@ def path_problem(
         begin,
         _BUFFER * length,
         gauss_table(spans, max(math.ceil(cells / _CELLS_A_PART / spans), 1)),
-        regular_table(spans, max(_GUARDS // spans, 2)),
+        regular_table(spans, _GUARDS),
         straight_control(start, goal, spans),
     )
 
@@ -191,7 +196,10 @@ def _evolved(
     spans = len(problem.straight) - 3
     ways = detours(problem.barriers, start, goal, 2.0 * problem.buffer)
     tracks = [*guesses, *itertools.islice(arcs(start, goal), 1), *ways, *arcs(start, goal)]
-    seeds = np.stack([genes_of(problem, fit_control(track, spans)) for track in tracks])
+    controls = [fit_control(track, spans) for track in tracks]
+    for control in controls[len(guesses) + 1 :]:
+        polish(problem, control, _WEIGHT, options.first_steps)
+    seeds = np.stack([genes_of(problem, control) for control in controls])
     reach = np.maximum(1.5 * np.abs(seeds).max(axis=0), _REACH)
     size = max(options.population, len(seeds))
     population = new_population(seeds, reach, size, max(options.evaluations, size), rng)
@@ -213,21 +221,27 @@ def _descended(
     """Steps 2 and 3: the optimum near a path, on ever more spans, as a dense track."""
     found = _dense(waters, problem, control)
     for halved in range(options.halvings + 1):
-        if clock.expired:
-            return found
         if halved:
-            spans = len(control) - 3
-            control = halving(spans) @ control
-            problem = path_problem(
-                waters, control[0], control[-1], begin=problem.begin, spans=2 * spans
-            )
-        polish(problem, control, _WEIGHTS[0], options.steps)
-    for weight in _WEIGHTS[1:]:
+            control = halving(len(control) - 3) @ control
+        problem = _finer(waters, problem, len(control) - 3)
+        if not clock.expired:
+            polish(problem, control, _WEIGHT, options.steps)
+    weight = _WEIGHT
+    for _ in range(_ATTEMPTS):
         path = _dense(waters, problem, control)
         if path.is_found or clock.expired:
             break
+        problem = problem._replace(buffer=_SAFER[0] * problem.buffer)
+        weight *= _SAFER[1]
         polish(problem, control, weight, options.steps)
     return min([path, found], key=lambda path: path.duration)
+
+
+def _finer(waters: Waters, problem: PathProblem, spans: int) -> PathProblem:
+    """The same problem on so many spans, with denser guards."""
+    start, goal = problem.straight[0], problem.straight[-1]
+    finer = path_problem(waters, start, goal, begin=problem.begin, spans=spans)
+    return finer._replace(guards=regular_table(spans, _DENSER * _GUARDS))
 
 
 def _dense(waters: Waters, problem: PathProblem, control: Floats) -> Path:
@@ -245,7 +259,7 @@ def _end(waters: Waters, position: ArrayLike, name: str) -> Floats:
     if place.shape != (2,) or not np.isfinite(place).all():
         raise InputError("an end of a path is two finite numbers", field=name, value=position)
     spare = clearance(waters.barriers, place[0], place[1])
-    if spare < 0.0:
+    if not spare > 0.0:
         rule = f"it lies {-spare:.1f} m inside a barrier or its margin; move it into open water"
         raise InputError(rule, field=name, value=place.tolist())
     return place

@@ -73,7 +73,7 @@ def track_path(waters: Waters, track: Floats, begin: float, curvature: float | N
     turn = track_curvature(track) if curvature is None else curvature
     clear = track_clearance(waters.barriers, track)
     duration = track_time(waters.grid, track, begin, waters.speed)
-    if clear < 0.0:
+    if not clear > 0.0:
         return Path(status=PathStatus.BLOCKED)
     if not math.isfinite(duration):
         return Path(status=PathStatus.AGAINST_CURRENT)

@@ -29,7 +29,7 @@ from fiveroute.ocean.current_grid import CurrentGrid, velocity
 from fiveroute.paths.legs import ground_speed
 from fiveroute.paths.spline import SplineTable
 
-__all__ = ["PathProblem", "collision", "path_cost", "shortfall", "travel"]
+__all__ = ["PathProblem", "collision", "cost_between", "path_cost", "shortfall", "travel"]
 
 Floats = NDArray[np.float64]
 
@@ -76,17 +76,26 @@ class PathProblem(NamedTuple):
 @kernel
 def path_cost(problem: PathProblem, control: Floats) -> tuple[float, float]:
     """Time of a path and its violation of the rules, both in seconds."""
-    time, violation = travel(problem, control)
-    return time, violation + collision(problem, control)
+    return cost_between(problem, control, 0, len(control) - 3)
 
 
 @kernel
-def travel(problem: PathProblem, control: Floats) -> tuple[float, float]:
-    """Time of a path, and how far it breaks the rules of curvature and strength."""
+def cost_between(
+    problem: PathProblem, control: Floats, first: int, last: int
+) -> tuple[float, float]:
+    """Time and violation on the spans from `first` to before `last`, begun at the path's begin."""
+    time, violation = travel(problem, control, first, last)
+    return time, violation + collision(problem, control, first, last)
+
+
+@kernel
+def travel(problem: PathProblem, control: Floats, first: int, last: int) -> tuple[float, float]:
+    """Time on some spans, and how far they break the rules of curvature and strength."""
     nodes, speed = problem.nodes, problem.speed
+    each = len(nodes.first) // (len(control) - 3)
     elapsed = violation = 0.0
     slowness = 1.0 / speed
-    for k in range(len(nodes.first)):
+    for k in range(first * each, last * each):
         x = y = dx = dy = 0.0
         for i in range(4):
             px, py = control[nodes.first[k] + i, 0], control[nodes.first[k] + i, 1]
@@ -136,20 +145,20 @@ def _curvature(
 
 
 @kernel
-def collision(problem: PathProblem, control: Floats) -> float:
-    """How far a path breaks the rule of clearance, in seconds of still-water time."""
-    guards, last = problem.guards, len(problem.guards.first) - 1
-    every = guards.weight[1]
-    most = _longest_step(control) * every
-    violation, k = 0.0, 0
-    while k <= last:
+def collision(problem: PathProblem, control: Floats, first: int, last: int) -> float:
+    """How far some spans break the rule of clearance, in seconds of still-water time."""
+    guards = problem.guards
+    each = (len(guards.first) - 1) // (len(control) - 3)
+    most = _longest_step(control) / each
+    violation, k, end = 0.0, first * each, last * each
+    while k <= end:
         x = y = 0.0
         for i in range(4):
             x += guards.value[k, i] * control[guards.first[k] + i, 0]
             y += guards.value[k, i] * control[guards.first[k] + i, 1]
         spare = clearance(problem.barriers, x, y) - problem.buffer
         if spare > 0.0:
-            k += int(min(max(spare / most, 1.0), last + 1.0))
+            k += int(min(max(spare / most, 1.0), end + 1.0))
             continue
         dx = dy = 0.0
         for i in range(4):

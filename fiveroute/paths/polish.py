@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
-from fiveroute.paths.path_cost import PathProblem, path_cost
+from fiveroute.paths.path_cost import PathProblem, cost_between, path_cost
 
 __all__ = ["merit", "polish"]
 
@@ -47,9 +47,9 @@ def polish(problem: PathProblem, control: Floats, weight: float, steps: int) -> 
     """Descend from the control points, which are changed in place; tells the merit reached."""
     normals = _normals(control)
     length = math.hypot(control[-1, 0] - control[0, 0], control[-1, 1] - control[0, 1])
-    inverse = np.linalg.inv(_stiffness(problem, control, normals))
+    inverse: Floats = np.linalg.inv(_stiffness(problem, control, normals))  # type: ignore[assignment]
     value = merit(problem, control, weight)
-    gradient = _gradient(problem, control, normals, weight, value, _DIFFERENCE * length)
+    gradient = _gradient(problem, control, normals, weight, _DIFFERENCE * length)
     idle = 0
     for _ in range(steps):
         step = -(inverse @ gradient)
@@ -64,7 +64,7 @@ def polish(problem: PathProblem, control: Floats, weight: float, steps: int) -> 
         step *= share
         _move(control, normals, step)
         before = gradient
-        gradient = _gradient(problem, control, normals, weight, reached, _DIFFERENCE * length)
+        gradient = _gradient(problem, control, normals, weight, _DIFFERENCE * length)
         _update(inverse, step, gradient - before)
         idle = idle + 1 if value - reached < _ENOUGH * value else 0
         value = reached
@@ -113,20 +113,26 @@ def _move(control: Floats, normals: Floats, step: Floats) -> None:
 
 @kernel
 def _gradient(
-    problem: PathProblem,
-    control: Floats,
-    normals: Floats,
-    weight: float,
-    value: float,
-    difference: float,
+    problem: PathProblem, control: Floats, normals: Floats, weight: float, difference: float
 ) -> Floats:
-    """Gradient of the merit, whose value is known, by forward differences."""
-    gradient = np.empty(len(normals))
+    """Gradient of the merit by central differences.
+
+    In a steady current a control point has a part only in the four spans beside it.
+    """
+    gradient, spans = np.empty(len(normals)), len(control) - 3
+    steady = problem.grid.uv.shape[0] == 1
     for i in range(len(normals)):
+        first, last = (max(i - 2, 0), min(i + 2, spans)) if steady else (0, spans)
         x, y = control[i + 1]
-        control[i + 1, 0] += difference * normals[i, 0]
-        control[i + 1, 1] += difference * normals[i, 1]
-        gradient[i] = (merit(problem, control, weight) - value) / difference
+        rise = 0.0
+        for side in (difference, -difference):
+            control[i + 1, 0], control[i + 1, 1] = (
+                x + side * normals[i, 0],
+                y + side * normals[i, 1],
+            )
+            time, violation = cost_between(problem, control, first, last)
+            rise += (time + weight * violation) / side
+        gradient[i] = 0.5 * rise
         control[i + 1, 0], control[i + 1, 1] = x, y
     return gradient
 

@@ -112,7 +112,7 @@ def halving(spans: int) -> Floats:
     follow from as many values of the curve, shape (2 S + 3, S + 3).
     """
     at = greville(2 * spans)
-    return np.linalg.solve(basis(2 * spans, at), basis(spans, at / 2.0))
+    return np.asarray(np.linalg.solve(basis(2 * spans, at), basis(spans, at / 2.0)), np.float64)
 
 
 def fit_control(track: Floats, spans: int) -> Floats:
@@ -132,7 +132,8 @@ def _fitting(spans: int) -> tuple[Floats, Floats]:
     matrix = basis(spans, np.linspace(0.0, spans, _FIT * spans + 1))
     bends = np.diff(np.eye(spans + _DEGREE), 2, axis=0)[:, 1:-1]
     inner = matrix[:, 1:-1]
-    return matrix, np.linalg.solve(inner.T @ inner + _SMOOTHING * bends.T @ bends, inner.T)
+    normal = inner.T @ inner + _SMOOTHING * bends.T @ bends
+    return matrix, np.asarray(np.linalg.solve(normal, inner.T), np.float64)
 
 
 def _knots(spans: int) -> Floats:
