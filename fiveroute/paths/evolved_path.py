@@ -42,7 +42,7 @@ from fiveroute.paths.first_paths import arcs, detours
 from fiveroute.paths.legs import Waters
 from fiveroute.paths.path import Path, track_path
 from fiveroute.paths.path_cost import PathProblem
-from fiveroute.paths.polish import polish
+from fiveroute.paths.polish import merit, polish
 from fiveroute.paths.spline import (
     fit_control,
     gauss_table,
@@ -71,6 +71,9 @@ _REACH = 0.4  # least bound of the genes, as a share of the line
 _WEIGHT = 0.02  # of the violation in the merit of a path
 _SAFER = 2.0, 5.0  # factors of buffer and weight, again until the track keeps the rules
 _ATTEMPTS = 5
+_PROMISING = 1.03  # times the best merit that a path may have to be descended from
+_APART = 0.04  # distance of two paths that count as different ways, as a share of the line
+_OUTLINE = 3  # points a span where that distance is taken
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +104,7 @@ class DifferentialEvolution:
     halvings: int = 2
     first_steps: int = 6
     steps: int = 30
+    descents: int = 2
 
     def __post_init__(self) -> None:
         if self.variant not in get_args(Variant):
@@ -157,11 +161,14 @@ def evolve_path(
         return straight
     tracks = [_joined(guess, *ends) for guess in guesses]
     problem = path_problem(waters, *ends, begin=begin, spans=options.spans)
-    population = _evolved(problem, tracks, options, np.random.default_rng(rng), clock)
-    control = control_of(problem, population.genes[population.best])
-    found = _descended(waters, problem, control, options, clock)
+    first = _first_controls(problem, tracks, options.first_steps)
+    population = _evolved(problem, first, options, np.random.default_rng(rng), clock)
+    found = [
+        _descended(waters, problem, control, options, clock)
+        for control in _contenders(problem, population, first, options.descents)
+    ]
     others = [track_path(waters, track, begin) for track in tracks]
-    return min([found, straight, *others], key=lambda path: path.duration)
+    return min([*found, straight, *others], key=lambda path: path.duration)
 
 
 def path_problem(
@@ -184,22 +191,25 @@ def path_problem(
     )
 
 
+def _first_controls(problem: PathProblem, guesses: Sequence[Floats], steps: int) -> list[Floats]:
+    """Control points of first paths: the straight line, and others a few steps down from there."""
+    start, goal, spans = problem.straight[0], problem.straight[-1], len(problem.straight) - 3
+    ways = detours(problem.barriers, start, goal, 2.0 * problem.buffer)
+    controls = [fit_control(track, spans) for track in (*guesses, *ways, *arcs(start, goal))]
+    for control in controls:
+        polish(problem, control, _WEIGHT, steps)
+    return [problem.straight, *controls]
+
+
 def _evolved(
     problem: PathProblem,
-    guesses: Sequence[Floats],
+    first: Sequence[Floats],
     options: DifferentialEvolution,
     rng: np.random.Generator,
     clock: Clock,
 ) -> Population:
     """Step 1: let paths evolve from first ones."""
-    start, goal = problem.straight[0], problem.straight[-1]
-    spans = len(problem.straight) - 3
-    ways = detours(problem.barriers, start, goal, 2.0 * problem.buffer)
-    tracks = [*guesses, *itertools.islice(arcs(start, goal), 1), *ways, *arcs(start, goal)]
-    controls = [fit_control(track, spans) for track in tracks]
-    for control in controls[len(guesses) + 1 :]:
-        polish(problem, control, _WEIGHT, options.first_steps)
-    seeds = np.stack([genes_of(problem, control) for control in controls])
+    seeds = np.stack([genes_of(problem, control) for control in first])
     reach = np.maximum(1.5 * np.abs(seeds).max(axis=0), _REACH)
     size = max(options.population, len(seeds))
     population = new_population(seeds, reach, size, max(options.evaluations, size), rng)
@@ -209,6 +219,30 @@ def _evolved(
         evolve(problem, population, random, _SLICE)
         if population.is_spent or clock.expired:
             return population
+
+
+def _contenders(
+    problem: PathProblem, population: Population, first: Sequence[Floats], most: int
+) -> list[Floats]:
+    """The best path, and first ones elsewhere that may yet become better."""
+    best = control_of(problem, population.genes[population.best])
+    merits = [merit(problem, control, _WEIGHT) for control in first]
+    bar = _PROMISING * merit(problem, best, _WEIGHT)
+    chosen, seen = [best], [_outline(best)]
+    apart = _APART * float(np.hypot(*(best[-1] - best[0])))
+    for k in np.argsort(merits):
+        outline = _outline(first[k])
+        if len(chosen) >= most or merits[k] > bar:
+            break
+        if min(np.hypot(*(outline - other).T).max() for other in seen) > apart:
+            chosen.append(first[k])
+            seen.append(outline)
+    return chosen
+
+
+def _outline(control: Floats) -> Floats:
+    """A few points along a path."""
+    return spline_points(regular_table(len(control) - 3, _OUTLINE), control)
 
 
 def _descended(
