@@ -17,7 +17,6 @@ Where no path keeps the rules there is none to hand back, and the status says wh
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -41,7 +40,7 @@ from fiveroute.paths.differential_evolution import (
 from fiveroute.paths.first_paths import arcs, detours
 from fiveroute.paths.legs import Waters
 from fiveroute.paths.path import Path, track_path
-from fiveroute.paths.path_cost import PathProblem
+from fiveroute.paths.path_cost import PathProblem, path_cost
 from fiveroute.paths.polish import merit, polish
 from fiveroute.paths.spline import (
     fit_control,
@@ -53,7 +52,7 @@ from fiveroute.paths.spline import (
     straight_control,
 )
 
-__all__ = ["DifferentialEvolution", "Variant", "evolve_path", "path_problem"]
+__all__ = ["THOROUGH", "DifferentialEvolution", "Variant", "evolve_path", "path_problem"]
 
 Floats = NDArray[np.float64]
 
@@ -66,12 +65,16 @@ _GUARDS = 32  # points a span where clearance is taken while paths evolve
 _DENSER = 4  # times as many in the descent
 _WAYPOINTS = 512  # points of a path that are handed back
 _CELLS_A_PART = 4.0  # grid cells to a part of the quadrature with three nodes
-_CELLS_A_SPAN, _FEWEST_SPANS, _MOST_SPANS = 10.0, 2, 6
+_FEWEST_PARTS = 12
+_CELLS_A_SPAN = 10.0  # grid cells to a span of the splines that evolve, within these bounds:
+_FEWEST_OPEN, _FEWEST, _MOST = 2, 5, 6  # in open water, among barriers, anywhere
 _REACH = 0.4  # least bound of the genes, as a share of the line
 _WEIGHT = 0.02  # of the violation in the merit of a path
-_SAFER = 2.0, 5.0  # factors of buffer and weight, again until the track keeps the rules
-_ATTEMPTS = 5
-_PROMISING = 1.03  # times the best merit that a path may have to be descended from
+_SAFER = 2.0, 5.0  # factors of buffer and weight, again until the track keeps the rules,
+_HEAVIEST = 10.0  # or the weight is this,
+_HOPELESS = 0.1  # or the violation has such a share in the merit
+_PROMISING = 1.03  # times the best duration that a path may take to be descended from
+_ROUNDING = 1e-12  # share of a duration that does not tell two paths apart
 _APART = 0.04  # distance of two paths that count as different ways, as a share of the line
 _OUTLINE = 3  # points a span where that distance is taken
 
@@ -93,8 +96,12 @@ class DifferentialEvolution:
         takes them by the line's length in cells of the current's grid.
     halvings
         How often the spans are halved for the descent.
+    first_steps
+        Most steps down that the first paths take before they evolve.
     steps
         Most steps of the descent between two halvings.
+    descents
+        Most paths that are descended from.
     """
 
     variant: Variant = "l-shade"
@@ -110,13 +117,19 @@ class DifferentialEvolution:
         if self.variant not in get_args(Variant):
             rule = f"the variant is one of {', '.join(get_args(Variant))}"
             raise InputError(rule, field="variant", value=self.variant)
-        least = {"population": 4, "evaluations": 0, "halvings": 0, "steps": 0}
+        least = {"population": 4, "evaluations": 0, "halvings": 0, "descents": 1}
         for name, bound in least.items():
             if getattr(self, name) < bound:
                 rule = f"this must be at least {bound}"
                 raise InputError(rule, field=name, value=getattr(self, name))
         if self.spans is not None and self.spans < 1:
             raise InputError("a spline has at least one span", field="spans", value=self.spans)
+
+
+THOROUGH = DifferentialEvolution(
+    population=60, evaluations=4000, first_steps=20, halvings=3, descents=6
+)
+"""For a single path: a second or less."""
 
 
 def evolve_path(
@@ -159,16 +172,17 @@ def evolve_path(
     straight = track_path(waters, np.stack(ends), begin)
     if np.array_equal(*ends):
         return straight
-    tracks = [_joined(guess, *ends) for guess in guesses]
+    tracks = [_joined(np.asarray(guess, dtype=np.float64), *ends) for guess in guesses]
     problem = path_problem(waters, *ends, begin=begin, spans=options.spans)
     first = _first_controls(problem, tracks, options.first_steps)
     population = _evolved(problem, first, options, np.random.default_rng(rng), clock)
-    found = [
-        _descended(waters, problem, control, options, clock)
-        for control in _contenders(problem, population, first, options.descents)
-    ]
-    others = [track_path(waters, track, begin) for track in tracks]
-    return min([*found, straight, *others], key=lambda path: path.duration)
+    found = _descents(waters, problem, _ranked(problem, population, first), options, clock)
+    for track in tracks:
+        control = fit_control(track, 2**options.halvings * (len(problem.straight) - 3))
+        found.append(_descended(waters, problem, control, options, clock))
+        found.append(track_path(waters, track, begin))
+    best = min(found, key=lambda path: path.duration)
+    return straight if straight.duration <= (1.0 + _ROUNDING) * best.duration < math.inf else best
 
 
 def path_problem(
@@ -177,7 +191,9 @@ def path_problem(
     """State the problem for kernels, with tables as fine as the current and the line ask for."""
     length = float(np.hypot(*(goal - start)))
     cells = length / waters.grid.step
-    spans = spans or min(max(math.ceil(cells / _CELLS_A_SPAN), _FEWEST_SPANS), _MOST_SPANS)
+    fewest = _FEWEST_OPEN if waters.barriers.is_open else _FEWEST
+    spans = spans or min(max(math.ceil(cells / _CELLS_A_SPAN), fewest), _MOST)
+    parts = max(math.ceil(cells / _CELLS_A_PART / spans), math.ceil(_FEWEST_PARTS / spans))
     return PathProblem(
         waters.grid,
         waters.barriers,
@@ -185,7 +201,7 @@ def path_problem(
         _TURN_RESERVE * waters.turning_radius,
         begin,
         _BUFFER * length,
-        gauss_table(spans, max(math.ceil(cells / _CELLS_A_PART / spans), 1)),
+        gauss_table(spans, parts),
         regular_table(spans, _GUARDS),
         straight_control(start, goal, spans),
     )
@@ -195,7 +211,8 @@ def _first_controls(problem: PathProblem, guesses: Sequence[Floats], steps: int)
     """Control points of first paths: the straight line, and others a few steps down from there."""
     start, goal, spans = problem.straight[0], problem.straight[-1], len(problem.straight) - 3
     ways = detours(problem.barriers, start, goal, 2.0 * problem.buffer)
-    controls = [fit_control(track, spans) for track in (*guesses, *ways, *arcs(start, goal))]
+    tracks = (*guesses, *ways, *arcs(start, goal))
+    controls = [fit_control(_joined(track, start, goal), spans) for track in tracks]
     for control in controls:
         polish(problem, control, _WEIGHT, steps)
     return [problem.straight, *controls]
@@ -221,23 +238,38 @@ def _evolved(
             return population
 
 
-def _contenders(
-    problem: PathProblem, population: Population, first: Sequence[Floats], most: int
-) -> list[Floats]:
-    """The best path, and first ones elsewhere that may yet become better."""
+def _ranked(problem: PathProblem, population: Population, first: Sequence[Floats]) -> list[Floats]:
+    """The path that evolved, then the first ones in the order of their merit."""
     best = control_of(problem, population.genes[population.best])
-    merits = [merit(problem, control, _WEIGHT) for control in first]
-    bar = _PROMISING * merit(problem, best, _WEIGHT)
-    chosen, seen = [best], [_outline(best)]
-    apart = _APART * float(np.hypot(*(best[-1] - best[0])))
-    for k in np.argsort(merits):
-        outline = _outline(first[k])
-        if len(chosen) >= most or merits[k] > bar:
+    return [best, *sorted(first, key=lambda control: merit(problem, control, _WEIGHT))]
+
+
+def _descents(
+    waters: Waters,
+    problem: PathProblem,
+    ranked: Sequence[Floats],
+    options: DifferentialEvolution,
+    clock: Clock,
+) -> list[Path]:
+    """Descend from the best paths that go different ways, from all while none keeps the rules."""
+    paths: list[Path] = []
+    seen: list[Floats] = []
+    fastest = math.inf
+    apart = _APART * float(np.hypot(*(problem.straight[-1] - problem.straight[0])))
+    for control in ranked:
+        if len(seen) >= options.descents:
             break
-        if min(np.hypot(*(outline - other).T).max() for other in seen) > apart:
-            chosen.append(first[k])
+        if merit(problem, control, _WEIGHT) > _PROMISING * fastest:
+            break
+        outline = _outline(control)
+        if any(np.hypot(*(outline - other).T).max() < apart for other in seen):
+            continue
+        path = _descended(waters, problem, control, options, clock)
+        paths.append(path)
+        if path.is_found:
             seen.append(outline)
-    return chosen
+            fastest = min(fastest, path.duration)
+    return paths
 
 
 def _outline(control: Floats) -> Floats:
@@ -254,20 +286,23 @@ def _descended(
 ) -> Path:
     """Steps 2 and 3: the optimum near a path, on ever more spans, as a dense track."""
     found = _dense(waters, problem, control)
-    for halved in range(options.halvings + 1):
-        if halved:
-            control = halving(len(control) - 3) @ control
+    finest = 2**options.halvings * (len(problem.straight) - 3)
+    while True:
         problem = _finer(waters, problem, len(control) - 3)
         if not clock.expired:
             polish(problem, control, _WEIGHT, options.steps)
-    weight = _WEIGHT
-    for _ in range(_ATTEMPTS):
-        path = _dense(waters, problem, control)
-        if path.is_found or clock.expired:
+        if len(control) - 3 >= finest:
+            break
+        control = halving(len(control) - 3) @ control
+    path, weight = _dense(waters, problem, control), _WEIGHT
+    while not path.is_found and weight < _HEAVIEST and not clock.expired:
+        time, violation = path_cost(problem, control)
+        if _WEIGHT * violation > _HOPELESS * time:
             break
         problem = problem._replace(buffer=_SAFER[0] * problem.buffer)
         weight *= _SAFER[1]
         polish(problem, control, weight, options.steps)
+        path = _dense(waters, problem, control)
     return min([path, found], key=lambda path: path.duration)
 
 
@@ -299,6 +334,6 @@ def _end(waters: Waters, position: ArrayLike, name: str) -> Floats:
     return place
 
 
-def _joined(guess: Floats, start: Floats, goal: Floats) -> Floats:
-    """A guessed track with the right ends."""
-    return np.concatenate([start[None, :], guess[1:-1], goal[None, :]])
+def _joined(track: Floats, start: Floats, goal: Floats) -> Floats:
+    """A track with exactly the right ends."""
+    return np.concatenate([start[None, :], track[1:-1], goal[None, :]])

@@ -21,7 +21,7 @@ __all__ = ["arcs", "detours", "sideways"]
 
 Floats = NDArray[np.float64]
 
-_PLACES = 65  # points of the straight line that are looked at
+_PLACES = 257  # points of the straight line that are looked at
 _SLIGHT, _WIDE = 0.07, 0.3  # height of arcs as a share of the line
 _MOST_MET = 4  # barriers in the way whose sides are all tried in combination
 _SLACK = 1.15  # detours run so much farther out than they must

@@ -10,9 +10,9 @@ where the path keeps the rule and has a continuous derivative:
 
 - collision (21): int (max(0, b - clearance) / b)^2 |p'| dw / V with a small buffer b,
   at dense points; a clearance of c metres frees all points within c, which are skipped;
-- curvature: int max(0, R curvature - 1)^2 |p'| dw / V with the turning radius R;
-- strength: where the current is too strong to make good the way, so much is missing in units
-  of V, and the path is taken to go on at a hundredth of V.
+- curvature: 100 int max(0, R curvature - 1)^2 |p'| dw / V with the turning radius R;
+- strength: where the current is too strong to make good the way, 100 times what is missing in
+  units of V, times |p'| dw / V; the path is taken to go on at a hundredth of V.
 """
 
 from __future__ import annotations
@@ -35,6 +35,7 @@ Floats = NDArray[np.float64]
 
 _CRAWL = 0.01  # share of the speed through the water that is counted where nothing is made good
 _TOO_STRONG = 100.0  # violation in seconds for every second of still-water time at no headway
+_TOO_TIGHT = 100.0  # violation in seconds for every second of still-water time at radius R / 2
 
 
 class PathProblem(NamedTuple):
@@ -117,7 +118,7 @@ def travel(problem: PathProblem, control: Floats, first: int, last: int) -> tupl
         if problem.turning_radius > 0.0:
             excess = problem.turning_radius * _curvature(nodes, k, control, dx, dy, pace) - 1.0
             if excess > 0.0:
-                violation += excess * excess * length / speed
+                violation += _TOO_TIGHT * excess * excess * length / speed
     return elapsed, violation
 
 

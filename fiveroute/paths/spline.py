@@ -112,7 +112,9 @@ def halving(spans: int) -> Floats:
     follow from as many values of the curve, shape (2 S + 3, S + 3).
     """
     at = greville(2 * spans)
-    return np.asarray(np.linalg.solve(basis(2 * spans, at), basis(spans, at / 2.0)), np.float64)
+    matrix = np.linalg.solve(basis(2 * spans, at), basis(spans, at / 2.0))
+    matrix[0], matrix[-1] = np.eye(spans + _DEGREE)[[0, -1]]  # the ends exactly
+    return np.asarray(matrix, np.float64)
 
 
 def fit_control(track: Floats, spans: int) -> Floats:
