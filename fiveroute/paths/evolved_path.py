@@ -64,7 +64,7 @@ _TURN_RESERVE = 1.02  # turning radius that is planned for
 _GUARDS = 32  # points a span where clearance is taken while paths evolve
 _DENSER = 4  # times as many in the descent
 _WAYPOINTS = 512  # points of a path that are handed back
-_CELLS_A_PART = 4.0  # grid cells to a part of the quadrature with three nodes
+_CELLS_A_PART = 6.0  # grid cells to a part of the quadrature with three nodes
 _FEWEST_PARTS = 12
 _CELLS_A_SPAN = 10.0  # grid cells to a span of the splines that evolve, within these bounds:
 _FEWEST_OPEN, _FEWEST, _MOST = 2, 5, 6  # in open water, among barriers, anywhere
@@ -73,9 +73,9 @@ _WEIGHT = 0.02  # of the violation in the merit of a path
 _SAFER = 2.0, 5.0  # factors of buffer and weight, again until the track keeps the rules,
 _HEAVIEST = 10.0  # or the weight is this,
 _HOPELESS = 0.1  # or the violation has such a share in the merit
-_PROMISING = 1.03  # times the best duration that a path may take to be descended from
+_PROMISING = 1.02  # times the best duration that a path may take to be descended from
 _ROUNDING = 1e-12  # share of a duration that does not tell two paths apart
-_APART = 0.04  # distance of two paths that count as different ways, as a share of the line
+_APART = 0.08  # distance of two paths that count as different ways, as a share of the line
 _OUTLINE = 3  # points a span where that distance is taken
 
 
@@ -105,11 +105,11 @@ class DifferentialEvolution:
     """
 
     variant: Variant = "l-shade"
-    population: int = 24
-    evaluations: int = 720
+    population: int = 20
+    evaluations: int = 400
     spans: int | None = None
     halvings: int = 2
-    first_steps: int = 6
+    first_steps: int = 4
     steps: int = 30
     descents: int = 2
 
