@@ -2,8 +2,8 @@
 
 It holds everything an `Instance` knows, one node a line, and loses no bit of a number.
 Some keys are left out where they say nothing out of the ordinary: ``metric`` (how coordinates
-become distances), ``travel_times``, the fleet's ``turning_radius``, the ocean's ``margin``, and the ``depth``
-and ``begin`` of its currents.
+become distances), ``travel_times``, the fleet's ``turning_radius``, the ocean's ``margin``, and
+the ``depth`` and ``begin`` of its currents.
 """
 
 from __future__ import annotations

@@ -108,16 +108,16 @@ def are_straight(
 ) -> NDArray[np.bool_]:
     """The same of many legs, faster than one by one; `starts` and `goals` of shape (k, 2)."""
     tails, heads = np.array(starts, dtype=np.float64), np.array(goals, dtype=np.float64)
-    barriers = waters.barriers
-    return np.array(
+    straight = np.array(
         [
-            gap <= tolerance and leg_clearance(barriers, *tail, *head) >= 0.0
-            for tail, head, gap in zip(
-                tails, heads, straight_gaps(waters, tails, heads), strict=True
-            )
+            _may_be_proved(waters.grid, tail, head, waters.speed, tolerance)
+            and leg_clearance(waters.barriers, *tail, *head) >= 0.0
+            for tail, head in zip(tails, heads, strict=True)
         ],
         dtype=np.bool_,
     )
+    straight[straight] = straight_gaps(waters, tails[straight], heads[straight]) <= tolerance
+    return straight
 
 
 def straight_gaps(waters: Waters, starts: Floats, goals: Floats) -> Floats:
@@ -141,6 +141,29 @@ def straight_gaps(waters: Waters, starts: Floats, goals: Floats) -> Floats:
             for start, goal in zip(starts, goals, strict=True)
         ]
     )
+
+
+@kernel
+def _may_be_proved(
+    grid: CurrentGrid, start: Floats, goal: Floats, speed: float, tolerance: float
+) -> bool:
+    """Whether E, which grows with G, may be small: with the G seen on the leg, in no ellipse."""
+    x, y = 0.5 * (start[0] + goal[0]), 0.5 * (start[1] + goal[1])
+    length = math.hypot(goal[0] - start[0], goal[1] - start[1])
+    if length == 0.0:
+        return True
+    u, v = velocity(grid, x, y, 0.0)
+    gradient = 0.0
+    for part in (-0.5, -0.25, -0.1, 0.1, 0.25, 0.5):
+        there = velocity(
+            grid, x + part * (goal[0] - start[0]), y + part * (goal[1] - start[1]), 0.0
+        )
+        change = math.hypot(there[0] - u, there[1] - v)
+        gradient = max(gradient, change / (abs(part) * length))
+    east, north = (goal[0] - start[0]) / length, (goal[1] - start[1]) / length
+    flow = u * east + v * north, v * east - u * north
+    least: float = _excess(flow, speed, math.hypot(u, v), gradient, 0.5 * length, 0.0)
+    return least <= tolerance
 
 
 @kernel

@@ -35,12 +35,12 @@ from fiveroute.ocean.land_mask import land_distance
 from fiveroute.ocean.model_current import ModelCurrent
 from fiveroute.ocean.obstacles import barriers_of, refuse_points_inside
 from fiveroute.ocean.stated import stated_current
-from fiveroute.paths.evolved_path import DifferentialEvolution, evolve_path
+from fiveroute.paths.evolved_path import THOROUGH, evolve_path
 from fiveroute.paths.leg_table import LegTable
-from fiveroute.paths.legs import Waters
+from fiveroute.paths.legs import Waters, track_clearance
 from fiveroute.paths.path import Path, track_path
 from fiveroute.paths.stencil import grid_path, grid_paths
-from fiveroute.paths.uniform_flow import is_straight
+from fiveroute.paths.uniform_flow import are_straight
 from fiveroute.paths.voyage import Voyage
 
 __all__ = ["PlannedPath", "at_sea", "plan_legs", "plan_path", "waters_of"]
@@ -60,11 +60,14 @@ _ERROR = 2e-4
 _REPORT_EVERY = 20
 """Legs between two reports of progress."""
 
-_THOROUGH = DifferentialEvolution(population=48, evaluations=6000, halvings=3, steps=60)
-"""How hard to look for a single path."""
-
 _COARSE = 4
 """Reach of the stencil that finds the ways round obstacles, in cells."""
+
+_CELLS = 60
+"""Cells of its grid along the region."""
+
+_OFF_TRACK = 0.5
+"""Metres that a track may be moved to save waypoints."""
 
 _INSTANT = 1e-9
 """Seconds that a reference counts at least."""
@@ -206,7 +209,7 @@ def plan_path(
         goal,
         begin=begin,
         guesses=(reference.track,) if len(reference.track) else (),
-        options=_THOROUGH,
+        options=THOROUGH,
         rng=seed,
         clock=clock,
     )
@@ -246,7 +249,9 @@ def plan_legs(
     clock = (limits or Limits()).start()
     legs = _all_legs(len(points)) if only is None else sorted(only)
     paths = {leg: track_path(waters, points[list(leg)], 0.0) for leg in legs}
-    curved = [leg for leg in legs if not is_straight(waters, *points[list(leg)])]
+    ends = points[np.array(legs, dtype=np.int64).reshape(-1, 2)]
+    straight = are_straight(waters, ends[:, 0], ends[:, 1])
+    curved = [leg for leg, proved in zip(legs, straight, strict=True) if not proved]
     guesses = _ways_round(waters, points, [leg for leg in curved if not paths[leg].is_found], clock)
 
     def improve(leg: Leg) -> None:
@@ -257,7 +262,7 @@ def plan_legs(
             paths[leg] = path
 
     def timed(leg: Leg) -> tuple[float, Floats]:
-        track = paths[leg].waypoints
+        track = _thinned(waters, paths[leg].waypoints)
         return sailing_time(track, current, waters.speed), track
 
     with ThreadPoolExecutor(os.cpu_count()) as workers:
@@ -266,6 +271,14 @@ def plan_legs(
                 progress(Progress(clock.seconds, message=f"paths {done} of {len(curved)}"))
         found = [leg for leg in legs if paths[leg].is_found]
         return LegTable.of(len(points), dict(zip(found, workers.map(timed, found), strict=True)))
+
+
+def _thinned(waters: Waters, track: Floats) -> Floats:
+    """A track with as few waypoints as keep it where it is, or as it was if that collides."""
+    from shapely import LineString
+
+    few = np.array(LineString(track).simplify(_OFF_TRACK).coords)
+    return few if track_clearance(waters.barriers, few) >= 0.0 else track
 
 
 def _all_legs(size: int) -> list[Leg]:
@@ -282,10 +295,14 @@ def _ways_round(
     for tail, head in legs:
         heads.setdefault(tail, []).append(head)
     tracks: dict[Leg, tuple[Floats, ...]] = {}
+    barriers = waters.barriers
+    step = max(barriers.east - barriers.west, barriers.north - barriers.south) / _CELLS
     for tail, goals in heads.items():
         if clock.expired:
             break
-        found = grid_paths(waters, points[tail], points[goals], radius=_COARSE)
+        found = grid_paths(
+            waters, points[tail], points[goals], step=step, radius=_COARSE, straight=False
+        )
         tracks |= {
             (tail, head): (path.track,)
             for head, path in zip(goals, found, strict=True)
