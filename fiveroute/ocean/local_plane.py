@@ -57,7 +57,7 @@ class LocalPlane:
     @property
     def proj(self) -> str:
         """The map as a PROJ string."""
-        return f"+proj=aeqd +lat_0={self.lat:.10g} +lon_0={self.lon:.10g} +datum=WGS84 +units=m"
+        return f"+proj=aeqd +lat_0={self.lat:.15g} +lon_0={self.lon:.15g} +datum=WGS84 +units=m"
 
     def project(self, lon: Floats, lat: Floats) -> tuple[Floats, Floats]:
         """Positions x, y in metres of longitudes and latitudes in degrees."""

@@ -20,7 +20,7 @@ import math
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,6 +30,9 @@ from fiveroute.ocean.local_plane import LocalPlane
 from fiveroute.ocean.model_file import open_model_file
 from fiveroute.ocean.model_grid import MapGrid, resample
 from fiveroute.ocean.model_source import Source, read_source
+
+if TYPE_CHECKING:
+    from fiveroute.ocean.current_grid import Region
 
 __all__ = ["Coverage", "ModelCurrent", "read_current"]
 
@@ -128,6 +131,28 @@ class ModelCurrent:
     def length_scale(self) -> float:
         """Twice the spacing of the model's cells: nothing smaller is in the data."""
         return 2.0 * self.grid.spacing
+
+    def clip(self, region: Region) -> Region:
+        """The part of a rectangle where the data may reach.
+
+        Raises
+        ------
+        InputError
+            If it has none.
+        """
+        (west, east), (south, north) = self.ranges.x, self.ranges.y
+        part = region._replace(
+            west=max(region.west, west),
+            south=max(region.south, south),
+            east=min(region.east, east),
+            north=min(region.north, north),
+        )
+        if part.west > part.east or part.south > part.north:
+            raise self._outside(
+                f"x = {_shown(region[::2])} m and y = {_shown(region[1::2])} m asked, but the "
+                f"data cover x = {_shown(self.ranges.x)} m and y = {_shown(self.ranges.y)} m"
+            )
+        return part
 
     def coverage(self) -> Coverage:
         """Where and when there are data."""

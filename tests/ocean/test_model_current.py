@@ -273,3 +273,11 @@ def test_refuses_numbers_that_no_sea_has(sea: SimpleNamespace, tmp_path: Path) -
     data["uo"].attrs["units"] = data["vo"].attrs["units"] = "cm/s"
     u, _ = read_current(written(data, tmp_path))(0.0, 0.0)
     assert u == pytest.approx(0.003, abs=1e-5)
+
+
+def test_clips_a_region_to_the_data(sea: SimpleNamespace, tmp_path: Path) -> None:
+    current = read_current(written(sea.cmems(LONS, LATS), tmp_path))
+    (west, east), (south, _) = current.coverage().x, current.coverage().y
+    assert current.clip(Region(-1e6, -1e6, 1e6, 50.0)) == (west, south, east, 50.0)
+    with pytest.raises(InputError, match=r"uo, vo: x = 20000 .. 30000 m and y = -50 .. 50 m asked"):
+        current.clip(Region(2e4, -50.0, 3e4, 50.0))
