@@ -69,6 +69,8 @@ def _engine(path: Path) -> str:
 
 def decoded(variable: xr.DataArray) -> Floats:
     """Values of a variable in its units, NaN where there is none."""
+    if variable.dtype.kind not in "iuf":
+        raise InputError("does not hold numbers", field=str(variable.name))
     values = np.array(variable.values, dtype=np.float64)
     missing = ~(np.abs(values) < _MISSING)
     for attribute in ("_FillValue", "missing_value"):

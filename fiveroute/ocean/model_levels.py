@@ -40,6 +40,8 @@ class Level:
         The levels above and below; the same if the depth is that of a level.
     share
         Weight of the lower one.
+    count
+        Number of levels.
     depths
         Depths of the highest and the lowest level in metres; None if they have no depth.
     note
@@ -50,6 +52,7 @@ class Level:
     upper: int
     lower: int
     share: float
+    count: int
     depths: tuple[float, float] | None
     note: str
 
@@ -66,12 +69,20 @@ def choose_level(data: xr.Dataset, name: str, axes: Axes, depth: float) -> Level
         raise InputError("must be at least 0 metres, counted down", field="depth", value=depth)
     if axes.depth is None:
         _only_surface(name, depth, "has no levels")
-        return Level(None, 0, 0, 0.0, None, "the file has one level, its depth unstated")
+        return Level(None, 0, 0, 0.0, 0, None, "the file has one level, its depth unstated")
     values = data[axes.depth_variable] if axes.depth_variable in data.variables else None
     if values is None or is_sigma(values.attrs):
         _only_surface(name, depth, "lies on levels that follow the terrain")
         top = _top_of_sigma(values)
-        return Level(axes.depth, top, top, 0.0, None, "the surface layer, terrain-following")
+        return Level(
+            axes.depth,
+            top,
+            top,
+            0.0,
+            data.sizes[axes.depth],
+            None,
+            "the surface layer, terrain-following",
+        )
     return _between(name, axes.depth, _depths(values), depth)
 
 
@@ -129,6 +140,7 @@ def _between(name: str, dimension: str, depths: Floats, depth: float) -> Level:
         int(order[above]),
         int(order[below]),
         share,
+        len(levels),
         (top, bottom),
         f"{depth:g} m: {note}",
     )

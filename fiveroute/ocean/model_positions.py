@@ -189,7 +189,7 @@ def _projected(data: xr.Dataset, name: str, dims: tuple[str, str]) -> Positions:
 
 def _projection(data: xr.Dataset, name: str) -> pyproj.CRS | None:
     """The projection that the grid mapping of a variable describes."""
-    mapping = str(data[name].attrs.get("grid_mapping", ""))
+    mapping = str(data[name].attrs.get("grid_mapping", "")).partition(":")[0].strip()
     if mapping not in data.variables:
         return None
     import pyproj

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
 from fiveroute.ocean.local_plane import LocalPlane
-from fiveroute.ocean.model_file import decoded, decoded_times
+from fiveroute.ocean.model_fields import Window, read_component, read_mask, read_window
+from fiveroute.ocean.model_file import decoded_times
 from fiveroute.ocean.model_grid import CellGrid, cells_from_faces, direction_of_rows, is_left_handed
 from fiveroute.ocean.model_levels import Level, choose_level
 from fiveroute.ocean.model_positions import Positions, read_positions
@@ -28,27 +29,17 @@ __all__ = ["Source", "read_source"]
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
-Booleans = NDArray[np.bool_]
 Integers = NDArray[np.int64]
 Times = NDArray[np.datetime64]
 
-_FASTEST = 20.0  # m/s; no sea runs faster, numbers without their scale factor do
 _AGREEMENT = 5.0  # degrees between the angle that a file gives and that of its own grid
-_UNITS = {  # of speeds, in metres per second
-    **dict.fromkeys(("", "m/s", "m s-1", "m.s-1", "ms-1", "m s^-1", "m s**-1", "m/sec"), 1.0),
-    **dict.fromkeys(("meter second-1", "meter/second", "meter/sec", "meter s-1"), 1.0),
-    **dict.fromkeys(("meters second-1", "meters/second", "meters/sec", "meters s-1"), 1.0),
-    **dict.fromkeys(("metre second-1", "metre/second", "metres second-1", "metres/second"), 1.0),
-    **dict.fromkeys(("cm/s", "cm s-1", "cm/sec", "centimeter second-1"), 0.01),
-}
-_CELL_MASKS = ("mask_rho", "tmask", "tmaskutil", "sea_binary_mask", "mask")  # 1 is water
-_LAND = "land_binary_mask"  # 1 is land
+_CELL_MASKS = ("mask_rho", "tmask", "tmaskutil", "sea_binary_mask", "land_binary_mask")
 _STAGGER_NOTES = {
     "": "none, both components lie at the same points",
     "ROMS": "C-grid of ROMS, brought from the faces to the centres of the cells",
     "NEMO": "C-grid of NEMO, brought from the eastern and northern faces to the cells",
 }
-_FACE_MASKS = {"u": ("mask_u", "umask"), "v": ("mask_v", "vmask")}  # 1 is open
+_FACE_MASKS = {"u": ("mask_u", "umask"), "v": ("mask_v", "vmask")}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -156,6 +147,8 @@ def _near(
 
 def _with_all_faces(data: xr.Dataset, positions: Positions, axes: tuple[Axes, Axes]) -> Positions:
     """The cells of a C-grid that have both faces in both components."""
+    if positions.rows[0] > positions.rows[-1] or positions.columns[0] > positions.columns[-1]:
+        raise InputError("has rows or columns in descending order, which a C-grid must not have")
     rows = min(data.sizes[of.rows] for of in axes)
     columns = min(data.sizes[of.columns] for of in axes)
     kept = [
@@ -163,7 +156,7 @@ def _with_all_faces(data: xr.Dataset, positions: Positions, axes: tuple[Axes, Ax
         for part, count in ((positions.rows, rows), (positions.columns, columns))
     ]
     if min(len(part) for part in kept) < 2:
-        raise InputError("leaves fewer than two rows or columns of cells with all their faces")
+        raise InputError("has fewer than two rows or columns of cells with all their faces")
     return positions.cut(*(slice(part[0], part[-1] + 1) for part in kept))
 
 
@@ -175,7 +168,7 @@ def _components(
     positions: Positions,
 ) -> tuple[Floats, Floats]:
     """Both components in the cells, shape (times, rows, columns)."""
-    windows = [(positions.rows, positions.columns)] * 2
+    windows: list[Window] = [(positions.rows, positions.columns)] * 2
     if velocity.stagger:
         windows = [
             (positions.rows, _from_one_before(positions.columns)),
@@ -183,7 +176,7 @@ def _components(
         ]
     names = velocity.u, velocity.v
     u, v = (
-        _component(data, name, of, level, window)
+        read_component(data, name, of, level, window)
         for name, of, level, window in zip(names, axes, levels, windows, strict=True)
     )
     if len(u) != len(v):
@@ -191,7 +184,7 @@ def _components(
     if not velocity.stagger:
         return u, v
     closed = (
-        _mask(data, _FACE_MASKS[side], (of.rows, of.columns), level, window)[0]
+        read_mask(data, _FACE_MASKS[side], (of.rows, of.columns), level, window)[0]
         for side, of, level, window in zip("uv", axes, levels, windows, strict=True)
     )
     return cells_from_faces(u, v, *closed)
@@ -201,76 +194,12 @@ def _from_one_before(indices: Integers) -> Integers:
     return np.arange(indices[0] - 1, indices[-1] + 1)
 
 
-def _component(
-    data: xr.Dataset, name: str, axes: Axes, level: Level, window: tuple[Integers, Integers]
-) -> Floats:
-    """One component in metres per second at its own points, shape (times, rows, columns)."""
-    variable = data[name]
-    units = str(variable.attrs.get("units", "")).strip().lower()
-    if units not in _UNITS:
-        raise InputError(
-            "is no unit of speed that can be read; give m s-1", field=name, value=units
-        )
-    times = () if axes.time is None else (axes.time,)
-    values = _at_level(variable, level.upper, level, times, (axes.rows, axes.columns), window)
-    if level.share > 0.0:
-        lower = _at_level(variable, level.lower, level, times, (axes.rows, axes.columns), window)
-        values = (1.0 - level.share) * values + level.share * lower
-    values = values.reshape(-1, *values.shape[-2:]) * _UNITS[units]
-    fastest = float(np.abs(values).max(where=np.isfinite(values), initial=0.0))
-    if fastest > _FASTEST:
-        raise InputError(
-            f"holds speeds up to {fastest:.6g} m/s, which no sea has; "
-            "is its scale factor or its fill value missing?",
-            field=name,
-        )
-    return values
-
-
-def _at_level(
-    variable: xr.DataArray,
-    k: int,
-    level: Level,
-    first: tuple[str, ...],
-    dims: tuple[str, str],
-    window: tuple[Integers, Integers],
-) -> Floats:
-    """Values in a window, with the dimensions `first` before rows and columns, others cut."""
-    cut: dict[str, int | slice] = {
-        str(dim): k if variable.sizes[dim] > k and dim == level.dimension else 0
-        for dim in variable.dims
-        if dim not in (*first, *dims)
-    }
-    for dim, indices in zip(dims, window, strict=True):
-        cut[dim] = slice(int(indices.min()), int(indices.max()) + 1)
-    slab = decoded(variable.isel(cut).transpose(*first, *dims))
-    rows, columns = (indices - indices.min() for indices in window)
-    return slab[..., rows, :][..., columns]
-
-
-def _mask(
-    data: xr.Dataset,
-    names: tuple[str, ...],
-    dims: tuple[str, str],
-    level: Level,
-    window: tuple[Integers, Integers],
-) -> tuple[Booleans | None, str]:
-    """Where a mask tells land, and the name of the mask; None without one."""
-    for name in names:
-        for held in data.variables:
-            signs = (str(held).lower(), str(data[held].attrs.get("standard_name", "")).lower())
-            if name in signs and set(dims) <= set(data[held].dims):
-                values = _at_level(data[held], level.lower, level, (), dims, window)
-                return (~(values < 0.5) if _LAND in signs else ~(values > 0.5)), str(held)
-    return None, ""
-
-
 def _take_off_land(
     data: xr.Dataset, w: Complexes, dims: tuple[str, str], level: Level, positions: Positions
 ) -> str:
     """Put NaN where a mask tells land, and say where land is known from."""
     window = positions.rows, positions.columns
-    masked, name = _mask(data, (*_CELL_MASKS, _LAND), dims, level, window)
+    masked, name = read_mask(data, _CELL_MASKS, dims, level, window)
     if masked is not None:
         w[:, masked] = np.nan
     land = ~np.isfinite(w).all(axis=0)
@@ -318,13 +247,13 @@ def _rotation(
 
 
 def _given_angle(
-    data: xr.Dataset, dims: tuple[str, str], window: tuple[Integers, Integers]
+    data: xr.Dataset, dims: tuple[str, str], window: Window
 ) -> tuple[Floats | None, str]:
     """Angle in radians from east to the grid's x axis as the file gives it."""
     if "angle" not in data.variables or set(data["angle"].dims) != set(dims):
         return None, ""
     variable = data["angle"]
-    angle = _at_level(variable, 0, Level(None, 0, 0, 0.0, None, ""), (), dims, window)
+    angle = read_window(variable, dims, window)
     is_degrees = str(variable.attrs.get("units", "")).lower().startswith("degree")
     return (np.radians(angle) if is_degrees else angle), "angle"
 

@@ -173,7 +173,7 @@ def _is_along_grid(data: xr.Dataset, name: str) -> bool:
     standard_name = _text(data[name].attrs)
     if "eastward" in standard_name or "northward" in standard_name:
         return False
-    if "x_" in standard_name or "y_" in standard_name:
+    if {"x", "y"} & set(standard_name.split("_")):
         return True
     return name.lower() in _ALONG_THE_GRID
 

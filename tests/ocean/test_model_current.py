@@ -241,6 +241,56 @@ def test_names_what_it_found(tmp_path: Path) -> None:
         read_current(written(data, tmp_path))
 
 
+def test_a_mask_of_another_name_for_its_levels_is_read_at_the_depth(
+    sea: SimpleNamespace, tmp_path: Path
+) -> None:
+    data = sea.nemo().expand_dims(deptht=np.array([1.0, 50.0, 90.0]), axis=1)
+    data["deptht"].attrs["positive"] = "down"
+    for name in ("nav_lon", "nav_lat", "time_counter"):
+        data[name] = (
+            data[name].isel(deptht=0, drop=True) if "deptht" in data[name].dims else data[name]
+        )
+    wet = np.ones((1, 3, 14, 17), dtype=np.int8)
+    wet[0, 1:, 5, 5] = wet[0, 2, 7, 7] = 0
+    data["tmask"] = ("t", "z", "y", "x"), wet
+    path = written(data, tmp_path)
+    for depth, dry in ((0.0, "0 of"), (50.0, "1 of"), (60.0, "2 of")):
+        assert read_current(path, depth=depth).provenance["land"].startswith(dry)
+
+
+def test_refuses_an_angle_that_is_not_the_grid_s(sea: SimpleNamespace, tmp_path: Path) -> None:
+    data = sea.roms()
+    data["angle"] += 0.3
+    with pytest.raises(InputError, match=r"angle: is 17.2 degrees off the direction"):
+        read_current(written(data, tmp_path))
+    data["angle"] = (
+        data["angle"].dims,
+        np.degrees(data["angle"].values - 0.3),
+        {"units": "degrees"},
+    )
+    assert "by angle" in read_current(written(data, tmp_path)).provenance["rotation"]
+
+
+def test_refuses_a_grid_whose_rows_run_the_wrong_way(sea: SimpleNamespace, tmp_path: Path) -> None:
+    data = sea.nemo().isel(y=slice(None, None, -1))
+    with pytest.raises(InputError, match="turn the rows of the file round"):
+        read_current(written(data, tmp_path))
+
+
+@pytest.mark.parametrize("kept", [0.3, 0.6, 0.9, 0.99])
+def test_a_file_cut_short_is_an_error(kept: float, sea: SimpleNamespace, tmp_path: Path) -> None:
+    path = written(sea.cmems(LONS, LATS), tmp_path)
+    content = path.read_bytes()
+    path.write_bytes(content[: int(kept * len(content))])
+    with pytest.raises(InputError, match=r"model\.nc"):
+        read_current(path)
+    path = written(sea.cmems(LONS, LATS), tmp_path, "scipy")
+    content = path.read_bytes()
+    path.write_bytes(content[: int(kept * len(content))])
+    with pytest.raises(InputError, match=r"model\.nc"):
+        read_current(path)
+
+
 def test_is_explicit_about_variables(sea: SimpleNamespace, tmp_path: Path) -> None:
     data = sea.cmems(LONS, LATS).rename(uo="eta", vo="theta")
     for name in ("eta", "theta"):

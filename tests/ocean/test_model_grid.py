@@ -32,9 +32,9 @@ def test_interpolates_in_second_order() -> None:
     for n in (17, 33, 65):
         x, y = bent(n)
         grid = resample(CellGrid(x, y, swirl(x, y)[None]))
-        j, i = np.nonzero(grid.covered)
-        at = grid.west + grid.step * i, grid.south + grid.step * j
-        within = (np.hypot(at[0] - x.mean(), at[1] - y.mean())) < 4e3
+        j, i = np.argwhere(grid.covered).T
+        at = [np.asarray(z) for z in (grid.west + grid.step * i, grid.south + grid.step * j)]
+        within = np.hypot(at[0] - x.mean(), at[1] - y.mean()) < 4e3
         w = grid.uv[0, j, i, 0] + 1j * grid.uv[0, j, i, 1]
         errors.append(np.abs(w - swirl(*at))[within].max())
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
