@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
+from fiveroute.ocean.model_axes import Axes
 from fiveroute.ocean.model_file import decoded
 from fiveroute.ocean.model_levels import Level
-from fiveroute.ocean.model_variables import Axes
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
+from fiveroute.ocean.model_axes import Axes, is_sigma
 from fiveroute.ocean.model_file import decoded
-from fiveroute.ocean.model_variables import Axes, is_sigma
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,7 +25,7 @@ __all__ = ["Level", "choose_level"]
 Floats = NDArray[np.float64]
 
 _NEAR_SURFACE = 20.0  # m; a highest level no deeper than this stands for the surface
-_LENGTHS = {"": 1.0, "m": 1.0, "meter": 1.0, "meters": 1.0, "metre": 1.0, "metres": 1.0}
+_METRES = ("m", "meter", "meters", "metre", "metres")
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +71,7 @@ def choose_level(data: xr.Dataset, name: str, axes: Axes, depth: float) -> Level
         _only_surface(name, depth, "has no levels")
         return Level(None, 0, 0, 0.0, 0, None, "the file has one level, its depth unstated")
     values = data[axes.depth_variable] if axes.depth_variable in data.variables else None
-    if values is None or is_sigma(values.attrs):
+    if values is None or is_sigma(values):
         _only_surface(name, depth, "lies on levels that follow the terrain")
         top = _top_of_sigma(values)
         return Level(
@@ -106,7 +106,8 @@ def _top_of_sigma(values: xr.DataArray | None) -> int:
 def _depths(values: xr.DataArray) -> Floats:
     """Depths of levels in metres, positive down."""
     units = str(values.attrs.get("units", "")).strip().lower()
-    if units not in _LENGTHS:
+    is_unstated = units == "" and str(values.name).lower().startswith("depth")
+    if units not in _METRES and not is_unstated:
         raise InputError(
             "is no unit of depth that can be read; give metres", field=str(values.name), value=units
         )

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
 from fiveroute.ocean.local_plane import LocalPlane
+from fiveroute.ocean.model_axes import find_coordinate
 from fiveroute.ocean.model_file import decoded
-from fiveroute.ocean.model_variables import find_coordinate
 
 if TYPE_CHECKING:
     import pyproj

@@ -15,12 +15,13 @@ from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
 from fiveroute.ocean.local_plane import LocalPlane
+from fiveroute.ocean.model_axes import Axes, find_axes
 from fiveroute.ocean.model_fields import Window, read_component, read_mask, read_window
 from fiveroute.ocean.model_file import decoded_times
 from fiveroute.ocean.model_grid import CellGrid, cells_from_faces, direction_of_rows, is_left_handed
 from fiveroute.ocean.model_levels import Level, choose_level
 from fiveroute.ocean.model_positions import Positions, read_positions
-from fiveroute.ocean.model_variables import Axes, Velocity, find_axes, find_cells, find_velocity
+from fiveroute.ocean.model_variables import Velocity, find_cells, find_velocity
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -4,15 +4,15 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
+from fiveroute.ocean.model_axes import find_axes
 from fiveroute.ocean.model_levels import Level, choose_level
-from fiveroute.ocean.model_variables import find_axes
 
 
 def level(depths: NDArray[np.float64], depth: float, **attributes: str) -> Level:
     data = xr.Dataset(
         {
             "u": (("depth", "lat", "lon"), np.zeros((len(depths), 2, 2))),
-            "depth": ("depth", depths, {"axis": "Z"} | attributes),
+            "depth": ("depth", depths, attributes),
         }
     )
     return choose_level(data, "u", find_axes(data, "u"), depth)
@@ -85,3 +85,9 @@ def test_without_levels_only_the_surface_can_be_asked() -> None:
     assert choose_level(data, "u", find_axes(data, "u"), 0.0).depths is None
     with pytest.raises(InputError, match="3 m asked, but the variable has no levels"):
         choose_level(data, "u", find_axes(data, "u"), 3.0)
+
+
+def test_numbers_of_levels_are_no_depths() -> None:
+    data = xr.Dataset({"u": (("lev", "lat", "lon"), np.zeros((3, 2, 2))), "lev": [1.0, 2.0, 3.0]})
+    with pytest.raises(InputError, match="lev: '': is no unit of depth"):
+        choose_level(data, "u", find_axes(data, "u"), 0.0)
