@@ -68,10 +68,19 @@ def _engine(path: Path) -> str:
 
 
 def decoded(variable: xr.DataArray) -> Floats:
-    """Values of a variable in its units, NaN where there is none."""
+    """Values of a variable in its units, NaN where there is none.
+
+    Raises
+    ------
+    InputError
+        If it does not hold numbers, or they cannot be read.
+    """
     if variable.dtype.kind not in "iuf":
         raise InputError("does not hold numbers", field=str(variable.name))
-    values = np.array(variable.values, dtype=np.float64)
+    try:
+        values = np.array(variable.values, dtype=np.float64)
+    except (OSError, RuntimeError) as error:
+        raise InputError(f"is damaged ({error})", field=str(variable.name)) from error
     missing = ~(np.abs(values) < _MISSING)
     for attribute in ("_FillValue", "missing_value"):
         for fill in _numbers(variable.attrs.get(attribute)):

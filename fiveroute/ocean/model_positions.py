@@ -132,12 +132,14 @@ def read_positions(
         return _projected(data, name, dims)
     if data[lon].ndim == 2 and data[lat].ndim == 2:
         return _in_two_dimensions(data, lon, lat, dims)
-    if data[lon].dims == data[lat].dims:
+    if {*data[lon].dims, *data[lat].dims} != set(dims):
         raise InputError(
-            "longitudes and latitudes lie along one dimension: a track or an unstructured grid; "
+            "has longitudes and latitudes along one dimension: a track or an unstructured grid; "
             "interpolate it to a grid of longitudes and latitudes first",
             field=name,
         )
+    if data[lon].ndim != 1 or data[lat].ndim != 1:
+        raise InputError(f"has {lon} and {lat} in different dimensions", field=name)
     return _in_one_dimension(data, lon, lat, origin)
 
 

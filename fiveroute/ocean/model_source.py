@@ -105,6 +105,8 @@ def read_source(
     plane, positions = _near(read_positions(data, velocity.u, dims, origin), origin, reach)
     if velocity.stagger:
         positions = _with_all_faces(data, positions, axes)
+    if min(positions.lon.shape) < 2:
+        raise InputError("has fewer than two rows or columns to read", field=velocity.u)
     levels = tuple(
         choose_level(data, name, of, depth)
         for name, of in zip((velocity.u, velocity.v), axes, strict=True)

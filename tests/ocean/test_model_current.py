@@ -3,6 +3,7 @@ from datetime import UTC, datetime, timedelta, timezone
 from pathlib import Path
 from types import SimpleNamespace
 
+import h5py  # type: ignore[import-untyped]
 import numpy as np
 import pyproj
 import pytest
@@ -74,11 +75,8 @@ FILES = {
 
 
 @pytest.mark.parametrize("kind", FILES)
-@pytest.mark.parametrize("origin", [None, (4.83, 60.77)])
-def test_reads_the_true_current(
-    kind: str, origin: tuple[float, float] | None, sea: SimpleNamespace, tmp_path: Path
-) -> None:
-    current = read_current(written(FILES[kind](sea), tmp_path), origin=origin)
+def test_reads_the_true_current(kind: str, sea: SimpleNamespace, tmp_path: Path) -> None:
+    current = read_current(written(FILES[kind](sea), tmp_path), origin=(4.83, 60.77))
     x, y = open_water(current)
     u, v = current(x, y, 0.0)
     true_u, true_v = on_the_map(current, sea, x, y)
@@ -331,3 +329,28 @@ def test_clips_a_region_to_the_data(sea: SimpleNamespace, tmp_path: Path) -> Non
     assert current.clip(Region(-1e6, -1e6, 1e6, 50.0)) == (west, south, east, 50.0)
     with pytest.raises(InputError, match=r"uo, vo: x = 20000 .. 30000 m and y = -50 .. 50 m asked"):
         current.clip(Region(2e4, -50.0, 3e4, 50.0))
+
+
+def test_a_damaged_chunk_is_an_error(sea: SimpleNamespace, tmp_path: Path) -> None:
+    path = tmp_path / "model.nc"
+    sea.cmems(LONS, LATS).to_netcdf(path, engine="h5netcdf", encoding={"uo": {"zlib": True}})
+    with h5py.File(path) as raw:
+        chunk = raw["uo"].id.get_chunk_info(0)
+    content = bytearray(path.read_bytes())
+    content[chunk.byte_offset : chunk.byte_offset + chunk.size] = bytes(chunk.size)
+    path.write_bytes(content)
+    with pytest.raises(InputError, match="uo: is damaged"):
+        read_current(path)
+
+
+def test_needs_a_grid(sea: SimpleNamespace, tmp_path: Path) -> None:
+    data = sea.cmems(LONS, LATS)
+    with pytest.raises(InputError, match="uo: has fewer than two rows or columns"):
+        read_current(written(data.isel(latitude=[3]), tmp_path))
+    track = data.isel(depth=0, latitude=slice(0, 17)).drop_vars(["latitude", "longitude"])
+    track["lon"] = ("longitude", LONS, {"units": "degrees_east"})
+    track["lat"] = ("longitude", LATS[:17], {"units": "degrees_north"})
+    with pytest.raises(InputError, match=r"uo: .* unstructured grid"):
+        read_current(written(track, tmp_path))
+    with pytest.raises(InputError, match=r"uo: has no longitudes and latitudes, nor projection"):
+        read_current(written(track.drop_vars(["lon", "lat"]), tmp_path))
