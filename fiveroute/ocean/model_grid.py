@@ -155,17 +155,16 @@ def is_left_handed(x: Floats, y: Floats) -> bool:
 
 
 def resample(cells: CellGrid) -> MapGrid:
-    """Bring the velocities of cells to a regular grid that covers them all."""
+    """Bring the velocities of cells to a regular grid that covers them all.
+
+    No data reach to its outermost points, so that a path that keeps to the data keeps inside.
+    """
     spacing = cells.spacing
     step = spacing / _fineness(cells)
-    west, south = (_first(part, spacing, step) for part in (cells.x, cells.y))
-    columns, rows = (
-        math.ceil((float(np.nanmax(part)) + spacing / 2.0 - first) / step) + 1
-        for part, first in ((cells.x, west), (cells.y, south))
-    )
-    x, y = np.meshgrid(west + step * np.arange(columns), south + step * np.arange(rows))
+    x, y = np.meshgrid(_along(cells.x, spacing, step), _along(cells.y, spacing, step))
     row, column = (part.reshape(x.shape) for part in _find_cells(cells, x.ravel(), y.ravel()))
     covered = np.isfinite(row)
+    covered[[0, -1]] = covered[:, [0, -1]] = False
     row, column = row[covered], column[covered]
     land = np.zeros(x.shape, dtype=bool)
     land[covered] = _on(cells.land, row, column)
@@ -173,7 +172,7 @@ def resample(cells: CellGrid) -> MapGrid:
     w[:, covered] = bilinear(cells.filled(), row, column)
     w = _nearest_filled(w, ~covered)
     uv = np.stack((w.real, w.imag), axis=-1)
-    return MapGrid(uv, land, covered, west, south, step, spacing)
+    return MapGrid(uv, land, covered, float(x[0, 0]), float(y[0, 0]), step, spacing)
 
 
 def _on(land: Booleans, row: Floats, column: Floats) -> Booleans:
@@ -201,9 +200,11 @@ def _fineness(cells: CellGrid) -> float:
     return float(np.clip(math.floor(math.sqrt(_MANY / coarse)), *_FINER))
 
 
-def _first(coordinate: Floats, spacing: float, step: float) -> float:
-    """First coordinate of the map's grid: a multiple of its spacing."""
-    return math.floor((float(np.nanmin(coordinate)) - spacing / 2.0) / step) * step
+def _along(coordinate: Floats, spacing: float, step: float) -> Floats:
+    """Coordinates of the map's grid: multiples of its spacing, one more than needed each way."""
+    first = math.floor((float(np.nanmin(coordinate)) - spacing / 2.0) / step) - 1
+    last = math.ceil((float(np.nanmax(coordinate)) + spacing / 2.0) / step) + 1
+    return step * np.arange(first, last + 1, dtype=np.float64)
 
 
 def _find_cells(cells: CellGrid, x: Floats, y: Floats) -> tuple[Floats, Floats]:

@@ -51,6 +51,14 @@ def test_covers_the_cells_to_half_their_size() -> None:
     assert (grid.uv == [1.0, 0.0]).all()
 
 
+def test_no_data_reach_to_the_rim() -> None:
+    x, y = np.meshgrid(np.arange(5) * 100.0, np.arange(4) * 300.0)
+    grid = resample(CellGrid(x, y, np.ones((1, 4, 5), dtype=complex)))
+    inner = grid.covered[1:-1, 1:-1]
+    assert inner.any()
+    assert grid.covered.sum() == inner.sum()
+
+
 def test_land_lends_the_nearest_water_and_stays_land() -> None:
     x, y = np.meshgrid(np.arange(6) * 100.0, np.arange(6) * 100.0)
     w = np.full((2, 6, 6), 0.3 + 0.1j)
