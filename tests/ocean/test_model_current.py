@@ -85,6 +85,31 @@ def test_reads_the_true_current(kind: str, sea: SimpleNamespace, tmp_path: Path)
     np.testing.assert_allclose(v, true_v, atol=8e-4)
 
 
+@pytest.mark.parametrize(
+    "kind", ["0 to 360", "descending latitudes", "descending x", "roms", "nemo"]
+)
+def test_reads_no_further_than_its_reach(kind: str, sea: SimpleNamespace, tmp_path: Path) -> None:
+    path = written(FILES[kind](sea), tmp_path)
+    near, far = (read_current(path, origin=(4.83, 60.79), reach=reach) for reach in (3e3, 1e5))
+    assert near.coverage().lon[0] > far.coverage().lon[0]
+    x, y = np.random.default_rng(5).uniform(-1e3, 1e3, (2, 50))
+    np.testing.assert_allclose(near(x, y), far(x, y), atol=1e-3)
+
+
+def test_knows_longitudes_beside_a_projection(sea: SimpleNamespace, tmp_path: Path) -> None:
+    data = sea.norkyst()
+    lon, lat, _ = sea.stereographic(*np.meshgrid(data["X"], data["Y"]))
+    data["lon"] = ("Y", "X"), lon, {"standard_name": "longitude"}
+    data["lat"] = ("Y", "X"), lat, {"standard_name": "latitude"}
+    one = read_current(written(data, tmp_path), origin=(4.83, 60.79))
+    assert "two dimensions" in one.provenance["positions"]
+    other = read_current(written(data.drop_vars(["lon", "lat"]), tmp_path), origin=(4.83, 60.79))
+    np.testing.assert_allclose(one.grid.uv, other.grid.uv, atol=1e-6)
+    turned = data.isel(X=slice(None, None, -1), Y=slice(None, None, -1))
+    third = read_current(written(turned, tmp_path), origin=(4.83, 60.79))
+    np.testing.assert_allclose(third.grid.uv, other.grid.uv, atol=1e-6)
+
+
 def test_reads_netcdf_3(sea: SimpleNamespace, tmp_path: Path) -> None:
     data = sea.cmems(LONS, LATS)
     one = read_current(written(data, tmp_path, "scipy"))
