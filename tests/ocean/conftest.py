@@ -180,5 +180,5 @@ def nemo(wet: Booleans | None = None) -> xr.Dataset:
 @pytest.fixture
 def sea() -> SimpleNamespace:
     """The true current and the files of models that hold it."""
-    made = (truth, cmems, hycom, norkyst, roms, nemo, stereographic)
+    made = (truth, cmems, hycom, norkyst, roms, nemo, stereographic, axes)
     return SimpleNamespace(lon=LON, lat=LAT, **{part.__name__: part for part in made})
