@@ -25,25 +25,31 @@ doi 10.1109/CEC.2014.6900380.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.heuristics.randomness import RandomState, below, uniform
+from fiveroute.heuristics.randomness import RandomState, below, random_state, uniform
 from fiveroute.kernels import kernel
+from fiveroute.limits import Clock
 from fiveroute.paths.path_cost import PathProblem, path_cost
 
 __all__ = [
     "INFEASIBLE",
     "Population",
+    "Variant",
     "control_of",
     "evaluate",
     "evolve_adaptive",
     "evolve_classic",
+    "evolved_population",
     "genes_of",
     "new_population",
 ]
+
+Variant = Literal["l-shade", "rand/1/bin"]
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -56,6 +62,9 @@ _MEMORY = 6  # pairs of F and CR that L-SHADE remembers
 _BEST = 0.11  # share of the population that counts as its best
 _ARCHIVE = 2.6  # size of the archive in populations
 _FEWEST = 4  # paths that L-SHADE ends with
+
+_SLICE = 20_000  # paths looked at between two looks at the clock
+_REACH = 0.4  # least bound of the genes, as a share of the line
 
 _SPENT, _BUDGET, _ALIVE, _ARCHIVED, _NEXT = range(5)
 
@@ -143,6 +152,32 @@ def control_of(problem: PathProblem, genes: Floats) -> Floats:
         control[i + 1, 0] += along * x - across * y
         control[i + 1, 1] += along * y + across * x
     return control
+
+
+def evolved_population(
+    problem: PathProblem,
+    first: Sequence[Floats],
+    *,
+    variant: Variant = "l-shade",
+    size: int = 20,
+    evaluations: int = 400,
+    rng: np.random.Generator,
+    clock: Clock,
+) -> Population:
+    """Let paths evolve from first ones, by their control points, and random ones beside them.
+
+    All first paths are taken, and all of them looked at, whatever `size` and `evaluations` say.
+    """
+    seeds = np.stack([genes_of(problem, control) for control in first])
+    reach = np.maximum(1.5 * np.abs(seeds).max(axis=0), _REACH)
+    size = max(size, len(seeds))
+    population = new_population(seeds, reach, size, max(evaluations, size), rng)
+    evolve = evolve_adaptive if variant == "l-shade" else evolve_classic
+    random = random_state(rng)
+    while True:
+        evolve(problem, population, random, _SLICE)
+        if population.is_spent or clock.expired:
+            return population
 
 
 def genes_of(problem: PathProblem, control: Floats) -> Floats:

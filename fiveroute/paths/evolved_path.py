@@ -20,55 +20,39 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fiveroute.errors import InputError
-from fiveroute.heuristics.randomness import random_state
 from fiveroute.limits import Clock, Limits
 from fiveroute.ocean.barriers import clearance
 from fiveroute.paths.differential_evolution import (
     Population,
+    Variant,
     control_of,
-    evolve_adaptive,
-    evolve_classic,
-    genes_of,
-    new_population,
+    evolved_population,
 )
-from fiveroute.paths.first_paths import arcs, detours
+from fiveroute.paths.first_paths import first_controls, joined
 from fiveroute.paths.legs import Waters
 from fiveroute.paths.path import Path, track_path
-from fiveroute.paths.path_cost import PathProblem, path_cost
+from fiveroute.paths.path_cost import PathProblem, path_cost, path_problem
 from fiveroute.paths.polish import merit, polish
 from fiveroute.paths.spline import (
     fit_control,
-    gauss_table,
     halving,
     regular_table,
     spline_curvature,
     spline_points,
-    straight_control,
 )
 
-__all__ = ["THOROUGH", "DifferentialEvolution", "Variant", "evolve_path", "path_problem"]
+__all__ = ["THOROUGH", "DifferentialEvolution", "evolve_path"]
 
 Floats = NDArray[np.float64]
 
-Variant = Literal["l-shade", "rand/1/bin"]
-
-_SLICE = 20_000  # paths looked at between two looks at the clock
-_BUFFER = 1e-4  # clearance that is planned for, as a share of the line
-_TURN_RESERVE = 1.02  # turning radius that is planned for
-_GUARDS = 32  # points a span where clearance is taken while paths evolve
-_DENSER = 4  # times as many in the descent
+_GUARDS = 128  # points a span where clearance is taken in the descent
 _WAYPOINTS = 512  # points of a path that are handed back
-_CELLS_A_PART = 6.0  # grid cells to a part of the quadrature with three nodes
-_FEWEST_PARTS = 12
-_CELLS_A_SPAN = 10.0  # grid cells to a span of the splines that evolve, within these bounds:
-_FEWEST_OPEN, _FEWEST, _MOST = 2, 5, 6  # in open water, among barriers, anywhere
-_REACH = 0.4  # least bound of the genes, as a share of the line
 _WEIGHT = 0.02  # of the violation in the merit of a path
 _SAFER = 2.0, 5.0  # factors of buffer and weight, again until the track keeps the rules,
 _HEAVIEST = 10.0  # or the weight is this,
@@ -172,10 +156,18 @@ def evolve_path(
     straight = track_path(waters, np.stack(ends), begin)
     if np.array_equal(*ends):
         return straight
-    tracks = [_joined(np.asarray(guess, dtype=np.float64), *ends) for guess in guesses]
+    tracks = [joined(np.asarray(guess, dtype=np.float64), *ends) for guess in guesses]
     problem = path_problem(waters, *ends, begin=begin, spans=options.spans)
-    first = _first_controls(problem, tracks, options.first_steps)
-    population = _evolved(problem, first, options, np.random.default_rng(rng), clock)
+    first = first_controls(problem, tracks, _WEIGHT, options.first_steps)
+    population = evolved_population(
+        problem,
+        first,
+        variant=options.variant,
+        size=options.population,
+        evaluations=options.evaluations,
+        rng=np.random.default_rng(rng),
+        clock=clock,
+    )
     found = _descents(waters, problem, _ranked(problem, population, first), options, clock)
     for track in tracks:
         control = fit_control(track, 2**options.halvings * (len(problem.straight) - 3))
@@ -183,59 +175,6 @@ def evolve_path(
         found.append(track_path(waters, track, begin))
     best = min(found, key=lambda path: path.duration)
     return straight if straight.duration <= (1.0 + _ROUNDING) * best.duration < math.inf else best
-
-
-def path_problem(
-    waters: Waters, start: Floats, goal: Floats, *, begin: float = 0.0, spans: int | None = None
-) -> PathProblem:
-    """State the problem for kernels, with tables as fine as the current and the line ask for."""
-    length = float(np.hypot(*(goal - start)))
-    cells = length / waters.grid.step
-    fewest = _FEWEST_OPEN if waters.barriers.is_open else _FEWEST
-    spans = spans or min(max(math.ceil(cells / _CELLS_A_SPAN), fewest), _MOST)
-    parts = max(math.ceil(cells / _CELLS_A_PART / spans), math.ceil(_FEWEST_PARTS / spans))
-    return PathProblem(
-        waters.grid,
-        waters.barriers,
-        waters.speed,
-        _TURN_RESERVE * waters.turning_radius,
-        begin,
-        _BUFFER * length,
-        gauss_table(spans, parts),
-        regular_table(spans, _GUARDS),
-        straight_control(start, goal, spans),
-    )
-
-
-def _first_controls(problem: PathProblem, guesses: Sequence[Floats], steps: int) -> list[Floats]:
-    """Control points of first paths: the straight line, and others a few steps down from there."""
-    start, goal, spans = problem.straight[0], problem.straight[-1], len(problem.straight) - 3
-    ways = detours(problem.barriers, start, goal, 2.0 * problem.buffer)
-    tracks = (*guesses, *ways, *arcs(start, goal))
-    controls = [fit_control(_joined(track, start, goal), spans) for track in tracks]
-    for control in controls:
-        polish(problem, control, _WEIGHT, steps)
-    return [problem.straight, *controls]
-
-
-def _evolved(
-    problem: PathProblem,
-    first: Sequence[Floats],
-    options: DifferentialEvolution,
-    rng: np.random.Generator,
-    clock: Clock,
-) -> Population:
-    """Step 1: let paths evolve from first ones."""
-    seeds = np.stack([genes_of(problem, control) for control in first])
-    reach = np.maximum(1.5 * np.abs(seeds).max(axis=0), _REACH)
-    size = max(options.population, len(seeds))
-    population = new_population(seeds, reach, size, max(options.evaluations, size), rng)
-    evolve = evolve_adaptive if options.variant == "l-shade" else evolve_classic
-    random = random_state(rng)
-    while True:
-        evolve(problem, population, random, _SLICE)
-        if population.is_spent or clock.expired:
-            return population
 
 
 def _ranked(problem: PathProblem, population: Population, first: Sequence[Floats]) -> list[Floats]:
@@ -310,7 +249,7 @@ def _finer(waters: Waters, problem: PathProblem, spans: int) -> PathProblem:
     """The same problem on so many spans, with denser guards."""
     start, goal = problem.straight[0], problem.straight[-1]
     finer = path_problem(waters, start, goal, begin=problem.begin, spans=spans)
-    return finer._replace(guards=regular_table(spans, _DENSER * _GUARDS))
+    return finer._replace(guards=regular_table(spans, _GUARDS))
 
 
 def _dense(waters: Waters, problem: PathProblem, control: Floats) -> Path:
@@ -332,8 +271,3 @@ def _end(waters: Waters, position: ArrayLike, name: str) -> Floats:
         rule = f"it lies {-spare:.1f} m inside a barrier or its margin; move it into open water"
         raise InputError(rule, field=name, value=place.tolist())
     return place
-
-
-def _joined(track: Floats, start: Floats, goal: Floats) -> Floats:
-    """A track with exactly the right ends."""
-    return np.concatenate([start[None, :], track[1:-1], goal[None, :]])

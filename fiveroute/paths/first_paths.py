@@ -9,15 +9,18 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
 from fiveroute.ocean.barriers import Barriers, clearance
+from fiveroute.paths.path_cost import PathProblem
+from fiveroute.paths.polish import polish
+from fiveroute.paths.spline import fit_control
 
-__all__ = ["arcs", "detours", "sideways"]
+__all__ = ["arcs", "detours", "first_controls", "joined", "sideways"]
 
 Floats = NDArray[np.float64]
 
@@ -25,6 +28,24 @@ _PLACES = 257  # points of the straight line that are looked at
 _SLIGHT, _WIDE = 0.07, 0.3  # height of arcs as a share of the line
 _MOST_MET = 4  # barriers in the way whose sides are all tried in combination
 _SLACK = 1.15  # detours run so much farther out than they must
+
+
+def first_controls(
+    problem: PathProblem, guesses: Sequence[Floats], weight: float, steps: int
+) -> list[Floats]:
+    """Control points of first paths: the straight line, and others a few steps down from there."""
+    start, goal, spans = problem.straight[0], problem.straight[-1], len(problem.straight) - 3
+    ways = detours(problem.barriers, start, goal, 2.0 * problem.buffer)
+    tracks = (*guesses, *ways, *arcs(start, goal))
+    controls = [fit_control(joined(track, start, goal), spans) for track in tracks]
+    for control in controls:
+        polish(problem, control, weight, steps)
+    return [problem.straight, *controls]
+
+
+def joined(track: Floats, start: Floats, goal: Floats) -> Floats:
+    """A track with exactly the right ends."""
+    return np.concatenate([start[None, :], track[1:-1], goal[None, :]])
 
 
 def arcs(start: Floats, goal: Floats) -> Iterator[Floats]:

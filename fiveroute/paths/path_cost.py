@@ -26,12 +26,28 @@ from numpy.typing import NDArray
 from fiveroute.kernels import kernel
 from fiveroute.ocean.barriers import Barriers, clearance
 from fiveroute.ocean.current_grid import CurrentGrid, velocity
-from fiveroute.paths.legs import ground_speed
-from fiveroute.paths.spline import SplineTable
+from fiveroute.paths.legs import Waters, ground_speed
+from fiveroute.paths.spline import SplineTable, gauss_table, regular_table, straight_control
 
-__all__ = ["PathProblem", "collision", "cost_between", "path_cost", "shortfall", "travel"]
+__all__ = [
+    "PathProblem",
+    "collision",
+    "cost_between",
+    "path_cost",
+    "path_problem",
+    "shortfall",
+    "travel",
+]
 
 Floats = NDArray[np.float64]
+
+_BUFFER = 1e-4  # clearance that is planned for, as a share of the line
+_TURN_RESERVE = 1.02  # turning radius that is planned for
+_GUARDS = 32  # points a span where clearance is taken
+_CELLS_A_PART = 6.0  # grid cells to a part of the quadrature with three nodes
+_FEWEST_PARTS = 12
+_CELLS_A_SPAN = 10.0  # grid cells to a span of the splines that evolve, within these bounds:
+_FEWEST_OPEN, _FEWEST, _MOST = 2, 5, 6  # in open water, among barriers, anywhere
 
 _CRAWL = 0.01  # share of the speed through the water that is counted where nothing is made good
 _TOO_STRONG = 100.0  # violation in seconds for every second of still-water time at no headway
@@ -72,6 +88,28 @@ class PathProblem(NamedTuple):
     nodes: SplineTable
     guards: SplineTable
     straight: Floats
+
+
+def path_problem(
+    waters: Waters, start: Floats, goal: Floats, *, begin: float = 0.0, spans: int | None = None
+) -> PathProblem:
+    """State the problem for kernels, with tables as fine as the current and the line ask for."""
+    length = float(np.hypot(*(goal - start)))
+    cells = length / waters.grid.step
+    fewest = _FEWEST_OPEN if waters.barriers.is_open else _FEWEST
+    spans = spans or min(max(math.ceil(cells / _CELLS_A_SPAN), fewest), _MOST)
+    parts = max(math.ceil(cells / _CELLS_A_PART / spans), math.ceil(_FEWEST_PARTS / spans))
+    return PathProblem(
+        waters.grid,
+        waters.barriers,
+        waters.speed,
+        _TURN_RESERVE * waters.turning_radius,
+        begin,
+        _BUFFER * length,
+        gauss_table(spans, parts),
+        regular_table(spans, _GUARDS),
+        straight_control(start, goal, spans),
+    )
 
 
 @kernel

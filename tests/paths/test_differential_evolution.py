@@ -17,9 +17,8 @@ from fiveroute.paths.differential_evolution import (
     genes_of,
     new_population,
 )
-from fiveroute.paths.evolved_path import path_problem
 from fiveroute.paths.legs import Waters
-from fiveroute.paths.path_cost import PathProblem, path_cost
+from fiveroute.paths.path_cost import PathProblem, path_cost, path_problem
 
 REGION = Region(-500.0, -2000.0, 4500.0, 2000.0)
 START, GOAL = np.array([0.0, 0.0]), np.array([3600.0, 1500.0])

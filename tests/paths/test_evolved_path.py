@@ -10,7 +10,8 @@ from fiveroute.limits import Limits
 from fiveroute.ocean.barriers import Barriers, no_barriers
 from fiveroute.ocean.current_grid import Region, grid_current
 from fiveroute.ocean.currents import Current, LambVortices, UniformCurrent
-from fiveroute.paths.evolved_path import THOROUGH, DifferentialEvolution, Variant, evolve_path
+from fiveroute.paths.differential_evolution import Variant
+from fiveroute.paths.evolved_path import THOROUGH, DifferentialEvolution, evolve_path
 from fiveroute.paths.legs import Waters, track_time
 from fiveroute.paths.path import PathStatus
 

@@ -8,9 +8,15 @@ from scipy.interpolate import BSpline
 from fiveroute.ocean.barriers import Barriers, no_barriers
 from fiveroute.ocean.current_grid import Region, grid_current
 from fiveroute.ocean.currents import Current, LambVortices, Shear, UniformCurrent
-from fiveroute.paths.evolved_path import path_problem
 from fiveroute.paths.legs import Waters
-from fiveroute.paths.path_cost import PathProblem, collision, cost_between, path_cost, shortfall
+from fiveroute.paths.path_cost import (
+    PathProblem,
+    collision,
+    cost_between,
+    path_cost,
+    path_problem,
+    shortfall,
+)
 from fiveroute.paths.spline import gauss_table, regular_table
 
 REGION = Region(-500.0, -2000.0, 4500.0, 2000.0)

@@ -6,9 +6,8 @@ import pytest
 from fiveroute.ocean.barriers import no_barriers
 from fiveroute.ocean.current_grid import Region, grid_current
 from fiveroute.ocean.currents import Current, Shear, UniformCurrent
-from fiveroute.paths.evolved_path import path_problem
 from fiveroute.paths.legs import Waters
-from fiveroute.paths.path_cost import PathProblem, path_cost
+from fiveroute.paths.path_cost import PathProblem, path_cost, path_problem
 from fiveroute.paths.polish import merit, polish
 
 REGION = Region(-500.0, -2500.0, 4500.0, 2500.0)
