@@ -13,6 +13,8 @@ against the current.
    anew along that track.
 
 Where no path keeps the rules there is none to hand back, and the status says what stood in its way.
+Evolution proves nothing, though: a way through a maze, or past a wall thinner than the guards'
+spacing, may need a guess.
 """
 
 from __future__ import annotations
@@ -224,7 +226,7 @@ def _descended(
     clock: Clock,
 ) -> Path:
     """Steps 2 and 3: the optimum near a path, on ever more spans, as a dense track."""
-    found = _dense(waters, problem, control)
+    control, found = control.copy(), _dense(waters, problem, control)
     finest = 2**options.halvings * (len(problem.straight) - 3)
     while True:
         problem = _finer(waters, problem, len(control) - 3)

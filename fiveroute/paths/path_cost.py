@@ -42,6 +42,7 @@ __all__ = [
 Floats = NDArray[np.float64]
 
 _BUFFER = 1e-4  # clearance that is planned for, as a share of the line
+_LEAST_BUFFER = 1e-3  # the same in metres, where an end lies close to a barrier
 _TURN_RESERVE = 1.02  # turning radius that is planned for
 _GUARDS = 32  # points a span where clearance is taken
 _CELLS_A_PART = 6.0  # grid cells to a part of the quadrature with three nodes
@@ -98,6 +99,7 @@ def path_problem(
     cells = length / waters.grid.step
     fewest = _FEWEST_OPEN if waters.barriers.is_open else _FEWEST
     spans = spans or min(max(math.ceil(cells / _CELLS_A_SPAN), fewest), _MOST)
+    spare = min(clearance(waters.barriers, x, y) for x, y in (start, goal))
     parts = max(math.ceil(cells / _CELLS_A_PART / spans), math.ceil(_FEWEST_PARTS / spans))
     return PathProblem(
         waters.grid,
@@ -105,7 +107,7 @@ def path_problem(
         waters.speed,
         _TURN_RESERVE * waters.turning_radius,
         begin,
-        _BUFFER * length,
+        min(_BUFFER * length, max(0.5 * spare, _LEAST_BUFFER)),
         gauss_table(spans, parts),
         regular_table(spans, _GUARDS),
         straight_control(start, goal, spans),

@@ -166,6 +166,13 @@ def test_what_cannot_be_reached_says_so() -> None:
     assert enclosed.duration == math.inf
 
 
+def test_an_end_may_lie_close_to_an_obstacle() -> None:
+    water = waters(VORTICES, circles((4000.0, -300.0, 299.95)))
+    path, free = (evolve_path(each, START, GOAL) for each in (water, waters(VORTICES)))
+    assert path.min_clearance <= 0.05 + 1e-9
+    assert path.duration == pytest.approx(free.duration, rel=1e-4)
+
+
 def test_ends_in_an_obstacle_are_named() -> None:
     water = waters(STILL, circles((4000.0, 100.0, 300.0)))
     with pytest.raises(InputError, match=r"^goal: .*200\.0 m inside"):
