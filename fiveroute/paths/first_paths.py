@@ -62,20 +62,18 @@ def detours(barriers: Barriers, start: Floats, goal: Floats, buffer: float) -> I
     line, across = _line(start, goal, np.linspace(0.0, 1.0, _PLACES))
     left = sideways(barriers, line, across, buffer)
     right = sideways(barriers, line, -across, buffer)
-    blocked = np.concatenate([[0], (left > 0.0).astype(np.int64), [0]])
-    begins, ends = np.flatnonzero(np.diff(blocked) == 1), np.flatnonzero(np.diff(blocked) == -1)
-    met = len(begins)
-    for sides in itertools.product((True, False), repeat=min(met, _MOST_MET)):
-        if not met:
-            return
+    edge = np.diff(np.concatenate([[0], (left > 0.0).astype(np.int64), [0]]))
+    met = [slice(a, b) for a, b in zip(*(np.flatnonzero(edge == k) for k in (1, -1)), strict=True)]
+    if not met:
+        return
+    places = np.arange(_PLACES)
+    for sides in itertools.product((True, False), repeat=min(len(met), _MOST_MET)):
         height = np.zeros(_PLACES)
-        for begin, end, to_left in zip(begins, ends, itertools.cycle(sides), strict=False):
-            part = slice(begin, end)
+        for part, to_left in zip(met, itertools.cycle(sides), strict=False):
             height[part] = left[part].max() if to_left else -right[part].max()
-        bare = (height != 0.0) | (np.arange(_PLACES) % (_PLACES - 1) == 0)
-        share = np.arange(_PLACES)
-        smooth = np.interp(share, share[bare], _SLACK * height[bare])
-        yield line + smooth[:, None] * across
+        stay = (height != 0.0) | (places % (_PLACES - 1) == 0)  # joined by straight legs
+        height = np.interp(places, places[stay], _SLACK * height[stay])
+        yield line + height[:, None] * across
 
 
 def _line(start: Floats, goal: Floats, share: Floats) -> tuple[Floats, Floats]:

@@ -4,16 +4,19 @@ import numpy as np
 import pytest
 
 from fiveroute.heuristics.randomness import random_state
+from fiveroute.limits import Limits
 from fiveroute.ocean.barriers import no_barriers
 from fiveroute.ocean.current_grid import Region, grid_current
 from fiveroute.ocean.currents import Current, LambVortices, UniformCurrent
 from fiveroute.paths.differential_evolution import (
     INFEASIBLE,
     Population,
+    Variant,
     control_of,
     evaluate,
     evolve_adaptive,
     evolve_classic,
+    evolved_population,
     genes_of,
     new_population,
 )
@@ -116,3 +119,25 @@ def test_seeds_come_first_and_are_kept_within_bounds() -> None:
     assert population.genes[0] == pytest.approx(0.1)
     assert population.genes[1] == pytest.approx(0.5)
     assert population.genes.shape == (10, 8)
+
+
+@pytest.mark.parametrize("variant", ["l-shade", "rand/1/bin"])
+def test_a_population_evolves_from_all_first_paths(variant: Variant) -> None:
+    of = problem(VORTEX)
+    first = [control_of(of, np.full(8, 0.01 * k)) for k in range(9)]
+    times = [path_cost(of, control)[0] for control in first]
+    for evaluations in (0, 500):
+        population = evolved_population(
+            of,
+            first,
+            variant=variant,
+            size=4,
+            evaluations=evaluations,
+            rng=np.random.default_rng(0),
+            clock=Limits().start(),
+        )
+        best = population.score[population.best]
+        if evaluations:
+            assert best < min(times)
+        else:
+            assert best == pytest.approx(min(times), rel=1e-12)

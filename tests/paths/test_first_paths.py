@@ -2,8 +2,11 @@ import numpy as np
 import pytest
 
 from fiveroute.ocean.barriers import Barriers, no_barriers
-from fiveroute.paths.first_paths import arcs, detours, sideways
-from fiveroute.paths.legs import track_clearance
+from fiveroute.ocean.current_grid import Region, grid_current
+from fiveroute.ocean.currents import UniformCurrent
+from fiveroute.paths.first_paths import arcs, detours, first_controls, joined, sideways
+from fiveroute.paths.legs import Waters, track_clearance
+from fiveroute.paths.path_cost import path_cost, path_problem
 
 START, GOAL = np.array([0.0, 0.0]), np.array([3000.0, 4000.0])
 ALONG, LEFT = np.array([0.6, 0.8]), np.array([-0.8, 0.6])
@@ -58,3 +61,22 @@ def test_the_sideways_distance_is_that_to_the_edge() -> None:
 def test_no_way_out_is_told_as_twice_the_vector() -> None:
     barriers = circles((2500.0, 0.0, 50_000.0))
     assert sideways(barriers, np.stack([START]), 5000.0 * LEFT, 1.0) == pytest.approx(2.0)
+
+
+def test_first_paths_are_the_straight_line_and_descents_from_the_others() -> None:
+    barriers = circles((2500.0, 100.0, 400.0))
+    region = Region(-1000.0, -1000.0, 4000.0, 5000.0)
+    waters = Waters(grid_current(UniformCurrent(0.0, 0.0), region), barriers, 1.0)
+    problem = path_problem(waters, START, GOAL)
+    guess = np.stack([START, 2500.0 * ALONG - 900.0 * LEFT, GOAL])
+    raw, polished = (first_controls(problem, [guess], 0.02, steps) for steps in (0, 10))
+    assert np.array_equal(polished[0], problem.straight)
+    for before, after in zip(raw, polished, strict=True):
+        time, violation = path_cost(problem, after)
+        assert time + 0.02 * violation <= sum(np.multiply(path_cost(problem, before), (1.0, 0.02)))
+        assert after[[0, -1]].tolist() == [START.tolist(), GOAL.tolist()]
+
+
+def test_a_track_is_joined_to_the_ends_exactly() -> None:
+    track = np.array([[1e-9, 0.0], [5.0, 6.0], [3000.1, 4000.0]])
+    assert joined(track, START, GOAL).tolist() == [[0.0, 0.0], [5.0, 6.0], [3000.0, 4000.0]]
