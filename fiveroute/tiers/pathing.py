@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 
 from fiveroute.check_paths import sailing_time
 from fiveroute.instance import Circle, Instance
+from fiveroute.kernels import source_digest
 from fiveroute.limits import Clock, Limits, Progress, ProgressCallback
 from fiveroute.ocean.current_grid import Region, grid_current
 from fiveroute.ocean.currents import Current, Superposition
@@ -36,6 +37,7 @@ from fiveroute.ocean.model_current import ModelCurrent
 from fiveroute.ocean.obstacles import barriers_of, refuse_points_inside
 from fiveroute.ocean.stated import stated_current
 from fiveroute.paths.evolved_path import THOROUGH, evolve_path
+from fiveroute.paths.leg_cache import keep_table, kept_table, table_key
 from fiveroute.paths.leg_table import LegTable
 from fiveroute.paths.legs import Waters, track_clearance
 from fiveroute.paths.path import Path, track_path
@@ -127,7 +129,15 @@ def at_sea(
         return Voyage.straight(instance)
     current = stated_current(instance, folder)
     waters = waters_of(instance, current)
-    table = plan_legs(waters, current, instance.points, limits=limits, seed=seed, progress=progress)
+    key = table_key(waters, instance.points, source_digest(__name__), seed)
+    table = kept_table(key)
+    if table is None:
+        clock = (limits or Limits()).start()
+        table = plan_legs(
+            waters, current, instance.points, limits=clock.rest(), seed=seed, progress=progress
+        )
+        if not clock.expired:  # no leg was left as it was
+            keep_table(key, table)
     lost = table.unreachable()
     kept = [node for node in range(1, len(instance.nodes) + 1) if node not in lost]
     return Voyage(

@@ -119,7 +119,10 @@ def test_no_plan_cannot_be_written() -> None:
         ({"objective": float("nan")}, "objective: nan: must be a finite number"),
         ({"status": "perfect"}, "status: 'perfect': must be 'optimal', 'feasible'"),
         ({"seed": 1.5}, "seed: 1.5: must be a valid integer"),
-        ({"seconds": 1}, "seconds: 1: is no key of this format; known are bound, durations"),
+        (
+            {"seconds": 1},
+            "seconds: 1: is no key of this format; known are bound, currents_hash, durations",
+        ),
         ({"instance": {}}, "instance.name: is missing"),
         ({"instance": []}, "instance: .*must be an object"),
     ],
