@@ -223,7 +223,16 @@ def plan_path(
         rng=seed,
         clock=clock,
     )
-    return PlannedPath(path, reference.duration, reference.track)
+    return PlannedPath(_clear_of_zones(waters, path), reference.duration, reference.track)
+
+
+def _clear_of_zones(waters: Waters, path: Path) -> Path:
+    """The path with its clearance from obstacles and land; the region's edge is no barrier."""
+    if not path.is_found:
+        return path
+    wide = Region(-math.inf, -math.inf, math.inf, math.inf)._asdict()
+    clear = track_clearance(waters.barriers._replace(**wide), path.waypoints)
+    return replace(path, min_clearance=clear)
 
 
 def plan_legs(
