@@ -51,7 +51,7 @@ def sail(
     voyage = at_sea(mission, file.parent, limits=until, seed=seed, progress=progress)
     if voyage.unreachable:
         click.echo(
-            f"fiveroute: {len(voyage.unreachable)} nodes cannot be reached and are not visited: "
+            "fiveroute: these nodes cannot be reached and are not visited: "
             f"{', '.join(voyage.unreachable)}",
             err=True,
         )
