@@ -76,14 +76,11 @@ def command(
     as_json: bool,
 ) -> None:
     """Fleet size, routes for every AUV, completion rate and optimality gap for INSTANCE."""
-    from dataclasses import replace
-
     from fiveroute.cli import answers
     from fiveroute.cli.files import require_output
     from fiveroute.cli.running import run
-    from fiveroute.cli.sailing import completed, sail
+    from fiveroute.cli.sailing import completed, file_plan, sail
     from fiveroute.formats import read_instance
-    from fiveroute.formats.plan_file import PlanFile, write_plan
     from fiveroute.limits import Limits, ProgressCallback
     from fiveroute.mission import MissionPlan, plan_mission
     from fiveroute.paths.voyage import Voyage
@@ -114,9 +111,7 @@ def command(
     outcome = run(work, Limits(time_limit))
     voyage, planned = outcome.value
     result = planned.result
-    if output is not None and result.plan is not None:
-        filed = PlanFile.of(voyage.instance, planned.problem, result, voyage.legs)
-        write_plan(replace(filed, instance=mission), output, force, source=instance)
+    file_plan(voyage, planned.problem, result, output, force=force, source=instance)
     answer = completed(answers.plan_answer(planned), voyage)
     if as_json:
         answers.print_json(answer)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -11,7 +12,11 @@ from fiveroute.instance import Instance
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.paths.voyage import Voyage
 
-__all__ = ["completed", "sail"]
+if TYPE_CHECKING:
+    from fiveroute.problem import TeamOrienteering
+    from fiveroute.result import Result
+
+__all__ = ["completed", "file_plan", "sail"]
 
 _SHARE = 0.5
 """Share of a time limit that planning the paths may take."""
@@ -56,6 +61,24 @@ def sail(
             err=True,
         )
     return voyage
+
+
+def file_plan(
+    voyage: Voyage,
+    problem: TeamOrienteering,
+    result: Result,
+    output: Path | None,
+    *,
+    force: bool,
+    source: Path,
+) -> None:
+    """Write the plan of a voyage for its whole mission, if it has one and a file is asked for."""
+    if output is None or result.plan is None:
+        return
+    from fiveroute.formats.plan_file import PlanFile, write_plan
+
+    filed = PlanFile.of(voyage.instance, problem, result, voyage.legs)
+    write_plan(replace(filed, instance=voyage.mission), output, force, source=source)
 
 
 def completed(answer: dict[str, Any], voyage: Voyage) -> dict[str, Any]:

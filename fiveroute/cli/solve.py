@@ -47,14 +47,11 @@ def command(
     as_json: bool,
 ) -> None:
     """Best plan for INSTANCE with a proof, or the best bound in the time given."""
-    from dataclasses import replace
-
     from fiveroute.cli import answers
     from fiveroute.cli.files import require_output
     from fiveroute.cli.running import run
-    from fiveroute.cli.sailing import completed, sail
+    from fiveroute.cli.sailing import completed, file_plan, sail
     from fiveroute.formats import read_instance
-    from fiveroute.formats.plan_file import PlanFile, write_plan
     from fiveroute.limits import Limits, ProgressCallback
     from fiveroute.models import solve
     from fiveroute.paths.voyage import Voyage
@@ -74,9 +71,7 @@ def command(
 
     outcome = run(work, Limits(time_limit, gap))
     voyage, problem, result = outcome.value
-    if output is not None and result.plan is not None:
-        filed = PlanFile.of(voyage.instance, problem, result, voyage.legs)
-        write_plan(replace(filed, instance=mission), output, force, source=instance)
+    file_plan(voyage, problem, result, output, force=force, source=instance)
     answer = completed(answers.solve_answer(voyage.instance, problem, result), voyage)
     if as_json:
         answers.print_json(answer)
