@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from fiveroute.check import Violation
 from fiveroute.instance import Circle, Instance
+from fiveroute.ocean.currents import Superposition
 from fiveroute.plan import Plan
 
 if TYPE_CHECKING:
@@ -72,6 +73,9 @@ def check_paths(
             continue
         for (tail, head), track in zip(legs, paths, strict=True):
             faults = _faults(track, points[[tail, head]], forbidden)
+            ashore = _metres_ashore(track, current)
+            if ashore > 0.0:
+                faults.append(("collision", ashore))
             if math.isinf(sailing_time(track, current, instance.fleet.speed)):
                 faults.append(("impassable", _length(track)))
             violations += [Violation(kind, auv, head, amount) for kind, amount in faults]
@@ -156,6 +160,39 @@ def _faults(track: Floats, ends: Floats, forbidden: BaseGeometry) -> list[tuple[
     if inside > _TOUCH * max(_length(track), 1.0):
         faults.append(("collision", inside))
     return faults
+
+
+def _metres_ashore(track: Floats, current: Current) -> float:
+    """How far a track leads over cells of a file that are land or have no data, in metres.
+
+    A quarter of a cell, by which a corner may be cut, counts as nothing.
+    """
+    from fiveroute.ocean.model_current import ModelCurrent
+
+    parts = current.parts if isinstance(current, Superposition) else (current,)
+    most = 0.0
+    for part in parts:
+        if isinstance(part, ModelCurrent):
+            metres = _metres_within(track, part.closed, part.west, part.south, part.step)
+            most = max(most, metres if metres > part.step / 4.0 else 0.0)
+    return most
+
+
+def _metres_within(
+    track: Floats, cells: NDArray[np.bool_], west: float, south: float, step: float
+) -> float:
+    """Length of a track within square cells about the points of a regular grid, in metres."""
+    legs = np.diff(track, axis=0)
+    lengths = np.hypot(*legs.T)
+    pieces = np.maximum(np.ceil(lengths / (step / 16.0)).astype(np.int64), 1)
+    leg = np.repeat(np.arange(len(legs)), pieces)
+    share = (np.arange(len(leg)) - np.repeat(np.cumsum(pieces) - pieces, pieces) + 0.5) / pieces[
+        leg
+    ]
+    x, y = (track[:-1][leg] + share[:, None] * legs[leg]).T
+    column = np.clip(np.rint((x - west) / step).astype(np.int64), 0, cells.shape[1] - 1)
+    row = np.clip(np.rint((y - south) / step).astype(np.int64), 0, cells.shape[0] - 1)
+    return float((lengths / pieces)[leg][cells[row, column]].sum())
 
 
 def _length(track: Floats) -> float:

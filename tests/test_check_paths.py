@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from fiveroute.check_paths import check_paths, sailing_time, times_of_paths
+from fiveroute.check_paths import _metres_within, check_paths, sailing_time, times_of_paths
 from fiveroute.instance import Circle, Fleet, Instance, Node, Ocean, Point, Polygon
 from fiveroute.ocean.current_grid import Region, grid_current
 from fiveroute.ocean.currents import LambVortices, Shear, Superposition, UniformCurrent
@@ -113,3 +113,12 @@ def test_a_leg_against_too_strong_a_current() -> None:
     current = UniformCurrent(-2.0, 0.0)
     kinds = {v.kind for v in check_paths(mission(Ocean()), Plan.of([[1]]), straight(), current)}
     assert kinds == {"impassable"}
+
+
+def test_metres_over_closed_cells() -> None:
+    """Cells of 100 m about 0, 100, 200: the middle column is closed from 50 to 150 m."""
+    cells = np.array([[False, True, False]] * 2)
+    across = np.array([[0.0, 0.0], [200.0, 0.0]])
+    assert _metres_within(across, cells, 0.0, 0.0, 100.0) == pytest.approx(100.0, abs=7.0)
+    along = np.array([[20.0, 0.0], [20.0, 100.0]])
+    assert _metres_within(along, cells, 0.0, 0.0, 100.0) == 0.0

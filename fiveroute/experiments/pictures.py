@@ -83,6 +83,7 @@ def _draw_current(figure: Figure, axis: Axes, waters: Waters) -> None:
     figure.colorbar(image, ax=axis, label="speed of the current in m/s", shrink=0.8)
     rows, columns = (slice(None, None, max(size // _ARROWS, 1)) for size in u.shape)
     arrows = u[rows, columns], v[rows, columns]
+    axis.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
     axis.quiver(x[columns], y[rows], *arrows, color="white", alpha=0.6, width=2e-3, zorder=1)
 
 

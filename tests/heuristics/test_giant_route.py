@@ -81,7 +81,7 @@ def test_proved_optimum_at_the_size_of_the_paper(asymmetry: float, closed: bool)
     travel = planar(points).travel * (1.0 + asymmetry * rng.random((62, 62)))
     service = np.concatenate(([0.0], rng.uniform(5.0, 25.0, 60), [0.0]))
     problem = problem_of(travel, service)
-    exact = solve_giant_route(problem, Limits(time=20.0))
+    exact = solve_giant_route(problem)
     assert exact.status is Status.OPTIMAL
     assert problem.duration(routes_of(problem)[0]) == pytest.approx(exact.duration)
 
