@@ -1,0 +1,98 @@
+"""Picking up: what an idle node is worth to an AUV, (26) and (27).
+
+Inserting node j at position i of the remaining route takes dt_i longer; its
+effectiveness-cost ratio is
+
+    psi_j = max over i of rho_j / dt_i,
+
+over the positions at which the time in hand stays non-negative, and 0 where there is none.
+An insertion that costs less than a second counts as one second, so that psi stays finite.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fiveroute.kernels import kernel
+from fiveroute.sea.course import Course, Outlook, Stops, time_in_hand
+
+__all__ = ["Offers", "offers", "pick_up_alone"]
+
+Offers = tuple[NDArray[np.float64], NDArray[np.int64]]
+"""Ratios psi and positions of insertion, both in the order of the idle nodes."""
+
+
+def offers(view: Outlook, course: Course, idle: NDArray[np.int64]) -> Offers:
+    """Psi of every idle node in data per second, 0 where it does not fit, and where to insert it.
+
+    Parameters
+    ----------
+    view
+        What the AUVs expect.
+    course
+        What this AUV has before it.
+    idle
+        Idle nodes, shape (J,).
+    """
+    psi, place = np.zeros(len(idle)), np.zeros(len(idle), np.int64)
+    stops = course.stops(len(view.profit) - 1)
+    left = course.budget - course.time
+    _offer(view, stops, len(stops) - 1, left, course.spread, idle, psi, place)
+    return psi, place
+
+
+def pick_up_alone(
+    view: Outlook, course: Course, idle: Collection[int]
+) -> tuple[Course, tuple[int, ...]]:
+    """Insert idle nodes in decreasing order of psi, as an AUV without rivals does.
+
+    Returns
+    -------
+    course
+        The longer course.
+    picked
+        The nodes inserted, in their order.
+    """
+    left, picked = np.array(sorted(idle), dtype=np.int64), []
+    while len(left):
+        psi, place = offers(view, course, left)
+        best = int(psi.argmax())
+        if psi[best] <= 0.0:
+            break
+        picked.append(int(left[best]))
+        course = course.with_node(picked[-1], int(place[best]))
+        left = np.delete(left, best)
+    return course, tuple(picked)
+
+
+@kernel
+def _offer(
+    view: Outlook,
+    stops: Stops,
+    length: int,
+    left: float,
+    spread: float,
+    idle: Stops,
+    psi: NDArray[np.float64],
+    place: Stops,
+) -> None:
+    """Fill psi and place for a route with room for one stop more; stops end up as they were."""
+    legs = view.legs
+    for k in range(len(idle)):
+        node = idle[k]
+        for at in range(length - 1, 0, -1):  # the node moves forward through the route
+            if at == length - 1:
+                stops[length] = stops[length - 1]
+            else:
+                stops[at + 1] = stops[at]
+            stops[at] = node
+            before, after = stops[at - 1], stops[at + 1]
+            extra = max(legs[before, node] + legs[node, after] - legs[before, after], 1.0)
+            ratio = view.profit[node] / extra
+            if ratio > psi[k] and time_in_hand(view, stops, length + 1, left, spread) >= 0.0:
+                psi[k], place[k] = ratio, at - 1
+        for at in range(1, length):
+            stops[at] = stops[at + 1]

@@ -1,0 +1,269 @@
+"""The simulation: one plan, many runs, and what became of it.
+
+`simulate_fleet` is where to start reading. It lets the fleet sail as often as asked, each time
+with other luck. Who steers is one of `PLANNERS`; the luck of a run, its failures, and the rule by
+which time is kept in hand are the same for all of them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fiveroute.check import check
+from fiveroute.errors import InputError
+from fiveroute.limits import Limits, Progress, ProgressCallback
+from fiveroute.plan import Plan
+from fiveroute.problem import TIME_TOLERANCE
+from fiveroute.sea.course import Outlook, outlook
+from fiveroute.sea.events import Event
+from fiveroute.sea.luck import Luck
+from fiveroute.sea.planners.alone import Alone, sail_alone
+from fiveroute.sea.planners.of_one_mind import OfOneMind
+from fiveroute.sea.planners.own_pick_up import OwnPickUp
+from fiveroute.sea.voyage import Crew, Voyage
+from fiveroute.sea.waters import Waters
+
+__all__ = ["PLANNERS", "RunResult", "SimulationResult", "simulate_fleet", "simulate_run"]
+
+CrewMaker = Callable[[Voyage, Outlook, Plan], Crew]
+
+PLANNERS: dict[str, CrewMaker] = {
+    "no-coordination": Alone,
+    "of-one-mind": OfOneMind,
+    "own-pick-up": OwnPickUp,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class RunResult:
+    """What became of the fleet in one run.
+
+    Parameters
+    ----------
+    run
+        Number of the run, counted from 0.
+    completion
+        Completion rate theta, (31), every node counted once.
+    arrivals
+        Time in seconds at which each AUV reached the destination; infinite if it failed.
+    late_returns
+        Number of AUVs that arrived after their T_max.
+    double_visits
+        Number of collections of nodes whose data had been collected before.
+    sent, delivered
+        Messages sent, and messages that reached somebody, each receiver counted.
+    false_takeovers
+        Nodes taken over from an AUV that still had them, or had collected them.
+    clairvoyant
+        Completion rate of the best plan found for the leg times that really came; None where
+        it was not asked for.
+    events
+        What happened, in the order of time; empty if no log was asked for.
+    """
+
+    run: int
+    completion: float
+    arrivals: tuple[float, ...]
+    late_returns: int
+    double_visits: int = 0
+    sent: int = 0
+    delivered: int = 0
+    false_takeovers: int = 0
+    clairvoyant: float | None = None
+    events: tuple[Event, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class SimulationResult:
+    """What became of a plan in many runs.
+
+    Parameters
+    ----------
+    planner
+        Who steered.
+    fleet_size
+        Number of AUVs.
+    planned_completion
+        Completion rate of the plan that the fleet set out with.
+    runs
+        The runs, in their order.
+    seconds
+        Time that the simulation took.
+    """
+
+    planner: str
+    fleet_size: int
+    planned_completion: float
+    runs: tuple[RunResult, ...]
+    seconds: float
+
+    @property
+    def completions(self) -> NDArray[np.float64]:
+        """Completion rate of every run, shape (runs,)."""
+        return np.array([run.completion for run in self.runs])
+
+    @property
+    def late_returns(self) -> int:
+        """Number of AUVs that came home late, over all runs."""
+        return sum(run.late_returns for run in self.runs)
+
+    @property
+    def double_visits(self) -> int:
+        """Number of collections in vain, over all runs."""
+        return sum(run.double_visits for run in self.runs)
+
+    @property
+    def messages(self) -> tuple[int, int]:
+        """Messages sent and delivered, over all runs."""
+        return sum(run.sent for run in self.runs), sum(run.delivered for run in self.runs)
+
+    @property
+    def online_gap(self) -> float | None:
+        """Mean of (clairvoyant - completion) / clairvoyant; None where it was not asked for."""
+        pairs = [(run.clairvoyant, run.completion) for run in self.runs]
+        gaps = [(best - got) / best if best else 0.0 for best, got in pairs if best is not None]
+        return sum(gaps) / len(gaps) if gaps else None
+
+
+def simulate_fleet(
+    waters: Waters,
+    plan: Plan,
+    *,
+    planner: str = "of-one-mind",
+    runs: int = 50,
+    first_run: int = 0,
+    reserve: float = 1.645,
+    failures: float = 0.0,
+    seed: int = 0,
+    log: bool = True,
+    limits: Limits | None = None,
+    progress: ProgressCallback | None = None,
+) -> SimulationResult:
+    """Let a fleet carry a plan out, again and again.
+
+    Parameters
+    ----------
+    waters
+        The mission.
+    plan
+        The routes with which the fleet sets out.
+    planner
+        Who steers, one of `PLANNERS`.
+    runs, first_run
+        Number of runs, and the number of the first: a campaign may be split up.
+    reserve
+        Standard deviations of the remaining time kept in hand; 0 as in the paper.
+    failures
+        Probability that an AUV fails in mid-mission.
+    seed
+        Seed of luck and failures; the same for all planners to be compared.
+    log
+        Whether to keep the events.
+    limits
+        When to stop; the runs done so far are returned.
+    progress
+        Called after every run.
+
+    Raises
+    ------
+    InputError
+        If an option or the plan makes no sense.
+    """
+    _check_options(waters, plan, planner, runs, reserve, failures)
+    clock, done = (limits or Limits()).start(), []
+    view = outlook(waters.problem, waters.law, reserve)
+    for run in range(first_run, first_run + runs):
+        done.append(simulate_run(waters, view, plan, planner, run, failures, seed, log))
+        if progress is not None:
+            progress(Progress(clock.seconds, message=f"run {len(done)} of {runs}"))
+        if clock.expired:
+            break
+    planned = plan.objective(waters.problem) / (waters.problem.total_profit or 1.0)
+    return SimulationResult(planner, waters.problem.fleet_size, planned, tuple(done), clock.seconds)
+
+
+def simulate_run(
+    waters: Waters,
+    view: Outlook,
+    plan: Plan,
+    planner: str,
+    run: int,
+    failures: float,
+    seed: int,
+    log: bool,
+) -> RunResult:
+    """One run; see `simulate_fleet`."""
+    problem, luck = waters.problem, Luck(waters.law, seed, run)
+    fails = failure_times(problem.budgets, failures, seed, run)
+    if planner == "no-coordination" and not log:
+        return _run_alone(waters, view, plan, luck, fails)
+    voyage = Voyage(problem, luck, fails)
+    voyage.sail(PLANNERS[planner](voyage, view, plan))
+    nodes = [event.node for event in voyage.log if event.kind == "collect"]
+    collected = problem.collected(sorted({node for node in nodes if node is not None}))
+    arrivals = [math.inf] * problem.fleet_size
+    for event in voyage.log:
+        if event.kind == "arrive":
+            arrivals[event.auv] = event.t
+    return RunResult(
+        run,
+        collected / (problem.total_profit or 1.0),
+        tuple(arrivals),
+        _late(waters, arrivals),
+        len(nodes) - len(set(nodes)),
+        events=tuple(voyage.log) if log else (),
+    )
+
+
+def failure_times(
+    budgets: NDArray[np.float64], failures: float, seed: int, run: int
+) -> tuple[float, ...]:
+    """When each AUV fails in a run, in seconds: at any time of its endurance, or never."""
+    rng = np.random.default_rng((seed, run, 1))
+    fails, when = rng.random(len(budgets)) < failures, rng.random(len(budgets)) * budgets
+    return tuple(np.where(fails, when, np.inf).tolist())
+
+
+def _run_alone(
+    waters: Waters, view: Outlook, plan: Plan, luck: Luck, fails: tuple[float, ...]
+) -> RunResult:
+    """Without coordination and without a log: every AUV in the kernel."""
+    problem, key = waters.problem, luck.key
+    collected, arrivals = 0.0, []
+    for route, budget, fail in zip(plan.routes, problem.budgets.tolist(), fails, strict=True):
+        stops = np.array([0, *route, problem.destination])
+        data, arrival = sail_alone(waters.law, key, view, stops, budget, fail)
+        collected += data
+        arrivals.append(arrival)
+    completion = collected / (problem.total_profit or 1.0)
+    return RunResult(luck.run, completion, tuple(arrivals), _late(waters, arrivals))
+
+
+def _late(waters: Waters, arrivals: list[float]) -> int:
+    allowed = waters.problem.budgets * (1.0 + TIME_TOLERANCE)
+    return sum(allowed[m] < arrival < math.inf for m, arrival in enumerate(arrivals))
+
+
+def _check_options(
+    waters: Waters, plan: Plan, planner: str, runs: int, reserve: float, failures: float
+) -> None:
+    if planner not in PLANNERS:
+        raise InputError(
+            f"no such planner; take one of {', '.join(sorted(PLANNERS))}",
+            field="planner",
+            value=planner,
+        )
+    if runs < 1:
+        raise InputError("at least one run", field="runs", value=runs)
+    if not (math.isfinite(reserve) and reserve >= 0.0):
+        raise InputError("must be finite and not negative", field="reserve", value=reserve)
+    if not 0.0 <= failures <= 1.0:
+        raise InputError("a probability lies between 0 and 1", field="failures", value=failures)
+    wrong = [v for v in check(waters.problem, plan) if v.kind != "over_budget"]
+    if wrong:
+        raise InputError("must be a plan of this mission", field="plan", value=wrong[0])

@@ -1,0 +1,19 @@
+"""A small mission at sea: 24 nodes, two AUVs that cannot visit all of them."""
+
+import numpy as np
+import pytest
+
+from fiveroute.generate import generate
+from fiveroute.heuristics.fleet_search import fleet_search
+from fiveroute.plan import Plan
+from fiveroute.sea.waters import Waters
+
+
+@pytest.fixture(scope="session")
+def waters() -> Waters:
+    return Waters.of(generate(nodes=24, seed=3), 2)
+
+
+@pytest.fixture(scope="session")
+def plan(waters: Waters) -> Plan:
+    return fleet_search(waters.problem, rng=np.random.default_rng(1), iterations=4000)

@@ -1,0 +1,128 @@
+"""Tier 5 by hand: (24) to (27), and Algorithm 2 in rounds."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fiveroute.instance import Uncertainty
+from fiveroute.problem import TeamOrienteering
+from fiveroute.sea.course import HARD, Course, Outlook, in_hand, outlook
+from fiveroute.sea.discarding import discard
+from fiveroute.sea.picking import offers, pick_up_alone
+from fiveroute.tiers.actuation import leg_law
+from fiveroute.tiers.coordination import (
+    Award,
+    assign_idle_nodes,
+    coordinate,
+    is_short_of_time,
+)
+
+CALM = Uncertainty(floor=1.0)
+ROUGH = Uncertainty(0.2, 0.5, 120.0, 0.2)
+
+
+def line(
+    places: list[float], data: list[float], uncertainty: Uncertainty = CALM, reserve: float = 0.0
+) -> Outlook:
+    """Nodes on a line, start and destination both at 0, no service, 1 m/s."""
+    at = np.array([0.0, *places, 0.0])
+    travel = np.abs(at[:, None] - at)
+    problem = TeamOrienteering(travel, np.zeros_like(at), [0.0, *data, 0.0], [1.0])
+    return outlook(problem, leg_law(travel, travel / 1000.0, uncertainty), reserve)
+
+
+def course(budget: float, *route: int, anchor: int = 0, time: float = 0.0) -> Course:
+    return Course(anchor, time, 0.0, budget, route)
+
+
+def test_the_trigger_is_24() -> None:
+    view = line([100.0, 300.0], [1.0, 1.0])
+    assert not is_short_of_time(view, course(600.0, 1, 2))
+    assert is_short_of_time(view, course(600.0, 1, 2, time=1.0))
+    assert in_hand(view, course(650.0, 1, 2)) == pytest.approx(50.0)
+
+
+def test_the_reserve_counts_what_remains_and_what_cannot_be_corrected() -> None:
+    view = line([1000.0, 1000.0], [1.0, 1.0], ROUGH, 1.0)
+    one = 200.0**2 + 0.5 * 120.0**2
+    there_and_back = 9000.0 - 2120.0 - HARD * (2.0 * one) ** 0.5
+    assert in_hand(view, course(9000.0, 1)) == pytest.approx(there_and_back)
+    assert in_hand(view, course(9000.0, 1, 2)) == pytest.approx(there_and_back)
+    near = line([1000.0, 1000.0, 10.0], [1.0, 1.0, 1.0], ROUGH, 1.0)
+    far = in_hand(near, course(9000.0, 1, 2, 3))
+    assert far < in_hand(near, course(9000.0))
+
+
+def test_the_node_of_least_ratio_is_discarded_first() -> None:
+    """3 saves 200 for 5, the others save nothing while it is there."""
+    view = line([100.0, 200.0, 300.0], [1.0, 1.0, 5.0])
+    assert discard(view, course(500.0, 1, 2, 3)) == (course(500.0, 1, 2), (3,))
+    assert discard(view, course(250.0, 1, 2, 3)) == (course(250.0, 1), (2, 3))
+    assert discard(view, course(600.0, 1, 2, 3)) == (course(600.0, 1, 2, 3), ())
+    assert discard(view, course(-1.0, 1, 2, 3))[1] == (1, 2, 3)
+
+
+def test_psi_is_data_per_added_second_at_the_best_place() -> None:
+    view = line([100.0, 200.0, 150.0], [1.0, 1.0, 3.0])
+    psi, place = offers(view, course(1000.0, 1), np.array([2, 3]))
+    assert psi.tolist() == pytest.approx([1.0 / 200.0, 3.0 / 100.0])
+    assert set(place.tolist()) <= {0, 1}
+    assert offers(view, course(299.0, 1), np.array([2]))[0].tolist() == [0.0]
+    assert offers(view, course(400.0, 1), np.array([2]))[0].tolist() == pytest.approx([1 / 200.0])
+
+
+def test_a_free_insertion_counts_as_a_second() -> None:
+    view = line([100.0, 200.0], [2.0, 1.0])
+    assert offers(view, course(400.0, 2), np.array([1]))[0].tolist() == [2.0]
+
+
+def test_alone_the_greatest_psi_comes_first() -> None:
+    view = line([100.0, 200.0, 300.0], [1.0, 1.0, 1.0])
+    longer, picked = pick_up_alone(view, course(400.0), {1, 2, 3})
+    assert picked == (1, 2)
+    assert sorted(longer.route) == [1, 2]
+
+
+def test_several_nodes_go_in_one_round_and_some_stay_idle() -> None:
+    """Two AUVs at either end of a line, a node near each of them, and one out of reach."""
+    view = line([0.0, 1000.0, 10.0, 990.0, 5000.0], [1.0, 1.0, 1.0, 1.0, 1.0])
+    fleet = [course(100.0, anchor=1), course(1200.0, anchor=2)]
+    after, awards = assign_idle_nodes(view, fleet, {3, 4, 5})
+    assert awards == (Award(0, 3), Award(1, 4))
+    assert [c.route for c in after] == [(3,), (4,)]
+
+
+def test_who_discards_may_bid() -> None:
+    view = line([100.0, 300.0], [1.0, 1.0])
+    courses, discarded, awards = coordinate(view, [course(200.0, 2), course(700.0)], 0, {1})
+    assert discarded == (2,)
+    assert {(a.auv, a.node) for a in awards} == {(0, 1), (1, 2)}
+    assert [c.route for c in courses] == [(1,), (2,)]
+
+
+@settings(deadline=None, max_examples=60)
+@given(seed=st.integers(0, 2**32 - 1), reserve=st.sampled_from([0.0, 1.645]))
+def test_whatever_happens_there_is_time(seed: int, reserve: float) -> None:
+    """Discarding makes a course fit if the way home does; no pick-up ever makes it unfit."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(1, 12))
+    travel = rng.random((n + 2, n + 2)) * 3000.0
+    data = np.array([0.0, *rng.random(n), 0.0])
+    service = np.array([0.0, *rng.random(n) * 30.0, 0.0])
+    problem = TeamOrienteering(travel, service, data, [1.0])
+    view = outlook(problem, leg_law(problem.travel, problem.travel / 1000.0, ROUGH), reserve)
+    order = (rng.permutation(n) + 1).tolist()
+    cut = int(rng.integers(0, n + 1))
+    shares: tuple[tuple[int, ...], ...] = (tuple(order[:cut]), ())
+    fleet = [
+        Course(0, float(rng.random() * 5000.0), float(rng.random() * 1e4), 20_000.0, share)
+        for share in shares
+    ]
+    after, discarded, awards = coordinate(view, fleet, 0, set(order[cut:]))
+    routes = [node for c in after for node in c.route]
+    assert len(routes) == len(set(routes))
+    assert set(order[:cut]) <= set(routes) | set(discarded)
+    for m, c in enumerate(after):
+        if any(a.auv == m for a in awards):
+            assert in_hand(view, c) >= 0.0
