@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,24 +19,22 @@ from fiveroute.errors import InputError
 from fiveroute.limits import Limits, Progress, ProgressCallback
 from fiveroute.plan import Plan
 from fiveroute.problem import TIME_TOLERANCE
+from fiveroute.sea.channel import PRESETS, Channel
 from fiveroute.sea.course import Outlook, outlook
 from fiveroute.sea.events import Event
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.alone import Alone, sail_alone
+from fiveroute.sea.planners.five_tier import FiveTier
 from fiveroute.sea.planners.of_one_mind import OfOneMind
 from fiveroute.sea.planners.own_pick_up import OwnPickUp
 from fiveroute.sea.voyage import Crew, Voyage
+from fiveroute.sea.watch import SILENCE
 from fiveroute.sea.waters import Waters
 
-__all__ = ["PLANNERS", "RunResult", "SimulationResult", "simulate_fleet", "simulate_run"]
+__all__ = ["PLANNERS", "RunResult", "SimulationResult", "simulate_fleet"]
 
-CrewMaker = Callable[[Voyage, Outlook, Plan], Crew]
-
-PLANNERS: dict[str, CrewMaker] = {
-    "no-coordination": Alone,
-    "of-one-mind": OfOneMind,
-    "own-pick-up": OwnPickUp,
-}
+PLANNERS = ("five-tier", "no-coordination", "of-one-mind", "own-pick-up")
+"""Who can steer."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,11 +132,13 @@ def simulate_fleet(
     waters: Waters,
     plan: Plan,
     *,
-    planner: str = "of-one-mind",
+    planner: str = "five-tier",
     runs: int = 50,
     first_run: int = 0,
     reserve: float = 1.645,
+    loss: float | None = None,
     failures: float = 0.0,
+    channel: Channel = PRESETS["unlimited"],
     seed: int = 0,
     log: bool = True,
     limits: Limits | None = None,
@@ -158,14 +158,18 @@ def simulate_fleet(
         Number of runs, and the number of the first: a campaign may be split up.
     reserve
         Standard deviations of the remaining time kept in hand; 0 as in the paper.
+    loss
+        Probability that a message is lost; None takes that of the channel.
     failures
         Probability that an AUV fails in mid-mission.
+    channel
+        What the AUVs of the five-tiered planner talk over.
     seed
-        Seed of luck and failures; the same for all planners to be compared.
+        Seed of luck, failures and losses; the same for all planners to be compared.
     log
         Whether to keep the events.
     limits
-        When to stop; the runs done so far are returned.
+        When to stop; the runs done so far are returned, one at least.
     progress
         Called after every run.
 
@@ -175,10 +179,16 @@ def simulate_fleet(
         If an option or the plan makes no sense.
     """
     _check_options(waters, plan, planner, runs, reserve, failures)
+    sea = _Sea(
+        waters,
+        outlook(waters.problem, waters.law, reserve),
+        channel if loss is None else replace(channel, loss=loss),
+        failures,
+        seed,
+    )
     clock, done = (limits or Limits()).start(), []
-    view = outlook(waters.problem, waters.law, reserve)
     for run in range(first_run, first_run + runs):
-        done.append(simulate_run(waters, view, plan, planner, run, failures, seed, log))
+        done.append(_run(sea, plan, planner, run, log))
         if progress is not None:
             progress(Progress(clock.seconds, message=f"run {len(done)} of {runs}"))
         if clock.expired:
@@ -187,37 +197,64 @@ def simulate_fleet(
     return SimulationResult(planner, waters.problem.fleet_size, planned, tuple(done), clock.seconds)
 
 
-def simulate_run(
-    waters: Waters,
-    view: Outlook,
-    plan: Plan,
-    planner: str,
-    run: int,
-    failures: float,
-    seed: int,
-    log: bool,
-) -> RunResult:
-    """One run; see `simulate_fleet`."""
-    problem, luck = waters.problem, Luck(waters.law, seed, run)
-    fails = failure_times(problem.budgets, failures, seed, run)
+@dataclass(frozen=True, slots=True)
+class _Sea:
+    """What all runs have in common."""
+
+    waters: Waters
+    view: Outlook
+    channel: Channel
+    failures: float
+    seed: int
+
+
+def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool) -> RunResult:
+    problem, luck = sea.waters.problem, Luck(sea.waters.law, sea.seed, run)
+    fails = failure_times(problem.budgets, sea.failures, sea.seed, run)
     if planner == "no-coordination" and not log:
-        return _run_alone(waters, view, plan, luck, fails)
+        return _run_alone(sea.waters, sea.view, plan, luck, fails)
     voyage = Voyage(problem, luck, fails)
-    voyage.sail(PLANNERS[planner](voyage, view, plan))
+    crew = _crew(sea, voyage, plan, planner)
+    voyage.sail(crew)
     nodes = [event.node for event in voyage.log if event.kind == "collect"]
     collected = problem.collected(sorted({node for node in nodes if node is not None}))
     arrivals = [math.inf] * problem.fleet_size
     for event in voyage.log:
         if event.kind == "arrive":
             arrivals[event.auv] = event.t
-    return RunResult(
+    result = RunResult(
         run,
         collected / (problem.total_profit or 1.0),
         tuple(arrivals),
-        _late(waters, arrivals),
+        _late(sea.waters, arrivals),
         len(nodes) - len(set(nodes)),
         events=tuple(voyage.log) if log else (),
     )
+    if isinstance(crew, FiveTier):
+        sent, delivered = crew.radio.sent, crew.radio.delivered
+        takeovers = crew.false_takeovers
+        return replace(result, sent=sent, delivered=delivered, false_takeovers=takeovers)
+    return result
+
+
+def _crew(sea: _Sea, voyage: Voyage, plan: Plan, planner: str) -> Crew:
+    """Whoever steers this run."""
+    if planner == "five-tier":
+        return FiveTier(
+            voyage,
+            sea.view,
+            plan,
+            channel=sea.channel,
+            points=sea.waters.points,
+            rng=np.random.default_rng((sea.seed, voyage.luck.run, 2)),
+            silence=SILENCE if sea.failures > 0.0 else math.inf,
+        )
+    makers: dict[str, Callable[[Voyage, Outlook, Plan], Crew]] = {
+        "no-coordination": Alone,
+        "of-one-mind": OfOneMind,
+        "own-pick-up": OwnPickUp,
+    }
+    return makers[planner](voyage, sea.view, plan)
 
 
 def failure_times(
@@ -254,7 +291,7 @@ def _check_options(
 ) -> None:
     if planner not in PLANNERS:
         raise InputError(
-            f"no such planner; take one of {', '.join(sorted(PLANNERS))}",
+            f"no such planner; take one of {', '.join(PLANNERS)}",
             field="planner",
             value=planner,
         )

@@ -1,0 +1,98 @@
+"""The five-tiered planner: AUVs that coordinate over the acoustic channel.
+
+Every AUV is an agent of its own. Before departure they all know the plan, and by it which AUV
+keeps which of the nodes that the plan leaves out: the one whose route they lie nearest to.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fiveroute.heuristics.pick_up import insertions
+from fiveroute.plan import Plan
+from fiveroute.problem import TeamOrienteering
+from fiveroute.sea.agent import Agent
+from fiveroute.sea.channel import Channel, Radio
+from fiveroute.sea.course import Outlook
+from fiveroute.sea.holdings import Holdings
+from fiveroute.sea.messages import Message
+from fiveroute.sea.voyage import Voyage
+from fiveroute.sea.watch import SILENCE
+
+__all__ = ["FiveTier"]
+
+
+class FiveTier:
+    """Steers the fleet of one run.
+
+    Parameters
+    ----------
+    voyage
+        The run.
+    view
+        What the AUVs expect.
+    plan
+        What they set out with.
+    channel
+        What they talk over.
+    points
+        Positions of all vertices in metres, shape (n + 2, 2).
+    rng
+        Draws losses and delays.
+    silence
+        Seconds after which a silent AUV is suspected; infinite where none ever fails.
+    """
+
+    def __init__(
+        self,
+        voyage: Voyage,
+        view: Outlook,
+        plan: Plan,
+        *,
+        channel: Channel,
+        points: NDArray[np.float64],
+        rng: np.random.Generator,
+        silence: float = SILENCE,
+    ) -> None:
+        self._voyage = voyage
+        self.radio = Radio(voyage, channel, points, rng, self._hear)
+        self.takeovers = self.false_takeovers = 0
+        keepers = first_keepers(voyage.problem, plan)
+        books = [
+            Holdings(list(route), {node for node, keeper in keepers.items() if keeper == auv})
+            for auv, route in enumerate(plan.routes)
+        ]
+        estates = {auv: book.mine for auv, book in enumerate(books)}
+        self.agents = [
+            Agent(auv, voyage, self.radio, view, book, estates, silence, self._note_takeover)
+            for auv, book in enumerate(books)
+        ]
+
+    def steer(self, auv: int, t: float) -> int:
+        """The next vertex of an AUV."""
+        return self.agents[auv].steer(t)
+
+    def come_home(self, auv: int, t: float) -> None:
+        """An AUV has reached the destination."""
+        self.agents[auv].come_home(t)
+
+    def _hear(self, t: float, auv: int, message: Message) -> None:
+        self.agents[auv].hear(t, message)
+
+    def _note_takeover(self, silent: int, node: int) -> None:
+        """Count a takeover if its belief is false: the node is not abandoned."""
+        holders = [
+            agent
+            for agent, vessel in zip(self.agents, self._voyage.vessels, strict=True)
+            if (vessel.is_alive and node in agent.holdings.mine) or node in agent.holdings.done
+        ]
+        self.takeovers += 1
+        self.false_takeovers += len(holders) > 1
+
+
+def first_keepers(problem: TeamOrienteering, plan: Plan) -> dict[int, int]:
+    """Which AUV keeps each node that the plan leaves out: the one with the least detour."""
+    idle = np.array(plan.idle(problem), dtype=np.int64)
+    extra = np.array([insertions(problem, route, idle)[1] for route in plan.routes])
+    return dict(zip(idle.tolist(), extra.argmin(axis=0).tolist(), strict=True)) if len(idle) else {}
