@@ -3,17 +3,14 @@
 A course begins at an anchor, the vertex where the AUV may next change its mind: the node where
 it is, or the one under way to which it is. From there it leads over the nodes of the remaining
 route to the destination. The AUV knows the law of the legs (12), not its luck, so it expects
-their means, and keeps a reserve for what may go wrong. Its time in hand is the least of
+their means t_hat, and keeps a reserve for what may go wrong. Its time in hand is
 
-    T_max - t - t_hat - z sd(all that remains),
-    T_max - t - t_hat - z' sd(last two legs),
-    T_max - t - t_hat_1 - z' sd(next leg, leg home),
+    T_max - t - t_hat - z sqrt(sum over legs of var_ij + AT_ONCE max over legs of var_ij),
 
-where t is the time at the anchor, t_hat the expected time of the whole remaining route, and
-t_hat_1 that of its first node and the direct way home. The first line is (24) with a reserve of z
-standard deviations. The other two look after what cannot be corrected: whoever has set out for a
-node must sail that leg and then the way home. There the chance to be late is not shared out
-over many decisions, and z' = HARD z. With z = 0 it is (24) as the paper has it.
+t being the time at the anchor. It is negative exactly if (24) holds with a reserve; z = 0 is (24)
+as the paper has it. The sum alone, z standard deviations of the remaining time, would not do: an
+AUV decides at every node anew and so bets again and again, and it cannot correct a leg once begun.
+Nearer home one leg makes up most of what remains, and counts more.
 """
 
 from __future__ import annotations
@@ -30,10 +27,10 @@ from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
 from fiveroute.tiers.actuation import LegLaw, expected_legs
 
-__all__ = ["HARD", "Course", "Outlook", "Stops", "in_hand", "outlook", "time_in_hand"]
+__all__ = ["AT_ONCE", "Course", "Outlook", "Stops", "in_hand", "outlook", "time_in_hand"]
 
-HARD = 1.3
-"""How much greater the reserve is for the legs that cannot be corrected any more."""
+AT_ONCE = 2.0
+"""How often the variance of the longest leg counts on top, as it cannot be corrected midway."""
 
 Stops = NDArray[np.int64]
 
@@ -53,8 +50,8 @@ class Outlook(NamedTuple):
         Data rho_j of every vertex, shape (n + 2,).
     reserve
         z, standard deviations of the remaining time kept in hand.
-    hard
-        z', standard deviations kept in hand for the legs that cannot be corrected.
+    at_once
+        How often the variance of the longest leg counts on top.
     slack
         Seconds by which a budget may be overrun, for rounding.
     """
@@ -64,7 +61,7 @@ class Outlook(NamedTuple):
     service: NDArray[np.float64]
     profit: NDArray[np.float64]
     reserve: float
-    hard: float
+    at_once: float
     slack: float
 
 
@@ -73,7 +70,7 @@ def outlook(problem: TeamOrienteering, law: LegLaw, reserve: float) -> Outlook:
     mean, variance = expected_legs(law)
     slack = float((problem.allowed - problem.budgets).min())
     service, profit = problem.service.copy(), problem.profit.copy()
-    return Outlook(mean + service, variance, service, profit, reserve, HARD * reserve, slack)
+    return Outlook(mean + service, variance, service, profit, reserve, AT_ONCE, slack)
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,19 +120,11 @@ def in_hand(view: Outlook, course: Course) -> float:
 def time_in_hand(view: Outlook, stops: Stops, length: int, left: float, spread: float) -> float:
     """Time in hand with `left` seconds left at stops[0], on the way to stops[length - 1]."""
     legs, variance = view.legs, view.variance
-    needed, uncertain = 0.0, spread
+    needed, uncertain, longest = 0.0, spread, spread
     for at in range(1, length):
         needed += legs[stops[at - 1], stops[at]]
-        uncertain += variance[stops[at - 1], stops[at]]
-    end = stops[length - 1]
-    last = variance[stops[length - 2], end]
-    last += variance[stops[length - 3], stops[length - 2]] if length > 2 else spread
-    reserve = max(view.reserve * math.sqrt(uncertain), view.hard * math.sqrt(last))
-    hand = left - needed - reserve
-    if length > 3:
-        first = stops[1]
-        out, home = legs[stops[0], first], legs[first, end]
-        home = min(home, needed - out)
-        risk = variance[stops[0], first] + variance[first, end]
-        hand = min(hand, left - out - home - view.hard * math.sqrt(risk))
+        leg = variance[stops[at - 1], stops[at]]
+        uncertain += leg
+        longest = max(longest, leg)
+    hand = left - needed - view.reserve * math.sqrt(uncertain + view.at_once * longest)
     return float(hand + view.slack)

@@ -4,9 +4,10 @@ Whenever the time in hand is negative, the node of least effectiveness-cost rati
 
     phi_i = rho_i / dt_i
 
-is left out, dt_i being the time that this saves, and ratios are computed anew, until the time
-suffices. Of equal ratios the greater saving goes first; a node whose absence saves no time stays.
-A next node from which the way home would be too risky is left out before all others.
+is left out, and ratios are computed anew, until the time suffices. dt_i is the time in hand that
+this gains: without a reserve, the travel and service time saved; with one, less for a node that
+divides a long leg into two whose luck may even out. Of equal ratios the greater gain goes first; a
+node whose absence gains nothing stays.
 """
 
 from __future__ import annotations
@@ -42,8 +43,9 @@ def discard(view: Outlook, course: Course) -> tuple[Course, Route]:
 @kernel
 def shed(view: Outlook, stops: Stops, length: int, left: float, spread: float) -> int:
     """Leave nodes out in place until the time suffices; returns the new length."""
-    while length > 2 and time_in_hand(view, stops, length, left, spread) < 0.0:
-        worst = 1 if _is_risky(view, stops, length, left) else _worst(view, stops, length)
+    hand = time_in_hand(view, stops, length, left, spread)
+    while length > 2 and hand < 0.0:
+        worst, hand = _worst(view, stops, length, left, spread, hand)
         if worst == 0:
             break
         for at in range(worst, length - 1):
@@ -53,26 +55,19 @@ def shed(view: Outlook, stops: Stops, length: int, left: float, spread: float) -
 
 
 @kernel
-def _is_risky(view: Outlook, stops: Stops, length: int, left: float) -> bool:
-    """Whether the direct way home over the next node alone is too risky."""
-    here, first, end = stops[0], stops[1], stops[length - 1]
-    risk = view.variance[here, first] + view.variance[first, end]
-    needed = view.legs[here, first] + view.legs[first, end]
-    direct = view.legs[here, end]
-    is_detour = needed > direct
-    return bool(is_detour and left - needed - view.hard * math.sqrt(risk) + view.slack < 0.0)
-
-
-@kernel
-def _worst(view: Outlook, stops: Stops, length: int) -> int:
-    """Position of the node of least phi; 0 where none saves time."""
-    worst, least, most = 0, math.inf, 0.0
+def _worst(
+    view: Outlook, stops: Stops, length: int, left: float, spread: float, hand: float
+) -> tuple[int, float]:
+    """Position of the node of least phi, 0 where none saves time, and the time then in hand."""
+    worst, least, most = 0, math.inf, hand
+    fewer = stops[: length - 1].copy()
+    fewer[1:] = stops[2:length]  # without the first node
     for at in range(1, length - 1):
-        before, node, after = stops[at - 1], stops[at], stops[at + 1]
-        saved = view.legs[before, node] + view.legs[node, after] - view.legs[before, after]
-        if saved <= 0.0:
+        then = time_in_hand(view, fewer, length - 1, left, spread)
+        fewer[at] = stops[at]
+        if then - hand <= 1e-9 * left:
             continue
-        phi = view.profit[node] / saved
-        if phi < least or (phi == least and saved > most):
-            worst, least, most = at, phi, saved
-    return worst
+        phi = view.profit[stops[at]] / (then - hand)
+        if phi < least or (phi == least and then > most):
+            worst, least, most = at, phi, then
+    return worst, most

@@ -1,6 +1,6 @@
 """Picking up: what an idle node is worth to an AUV, (26) and (27).
 
-Inserting node j at position i of the remaining route takes dt_i longer; its
+Inserting node j at position i of the remaining route costs dt_i of the time in hand; its
 effectiveness-cost ratio is
 
     psi_j = max over i of rho_j / dt_i,
@@ -80,7 +80,7 @@ def _offer(
     place: Stops,
 ) -> None:
     """Fill psi and place for a route with room for one stop more; stops end up as they were."""
-    legs = view.legs
+    hand = time_in_hand(view, stops, length, left, spread)
     for k in range(len(idle)):
         node = idle[k]
         for at in range(length - 1, 0, -1):  # the node moves forward through the route
@@ -89,10 +89,9 @@ def _offer(
             else:
                 stops[at + 1] = stops[at]
             stops[at] = node
-            before, after = stops[at - 1], stops[at + 1]
-            extra = max(legs[before, node] + legs[node, after] - legs[before, after], 1.0)
-            ratio = view.profit[node] / extra
-            if ratio > psi[k] and time_in_hand(view, stops, length + 1, left, spread) >= 0.0:
+            then = time_in_hand(view, stops, length + 1, left, spread)
+            ratio = view.profit[node] / max(hand - then, 1.0)
+            if then >= 0.0 and ratio > psi[k]:
                 psi[k], place[k] = ratio, at - 1
         for at in range(1, length):
             stops[at] = stops[at + 1]

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from fiveroute.instance import Uncertainty
 from fiveroute.problem import TeamOrienteering
-from fiveroute.sea.course import HARD, Course, Outlook, in_hand, outlook
+from fiveroute.sea.course import AT_ONCE, Course, Outlook, in_hand, outlook
 from fiveroute.sea.discarding import discard
 from fiveroute.sea.picking import offers, pick_up_alone
 from fiveroute.tiers.actuation import leg_law
@@ -43,15 +43,23 @@ def test_the_trigger_is_24() -> None:
     assert in_hand(view, course(650.0, 1, 2)) == pytest.approx(50.0)
 
 
-def test_the_reserve_counts_what_remains_and_what_cannot_be_corrected() -> None:
-    view = line([1000.0, 1000.0], [1.0, 1.0], ROUGH, 1.0)
+def test_the_reserve_counts_what_remains_and_the_longest_leg_on_top() -> None:
+    view = line([1000.0, 1000.0], [1.0, 1.0], ROUGH, 1.5)
     one = 200.0**2 + 0.5 * 120.0**2
-    there_and_back = 9000.0 - 2120.0 - HARD * (2.0 * one) ** 0.5
+    there_and_back = 9000.0 - 2120.0 - 1.5 * ((2.0 + AT_ONCE) * one) ** 0.5
     assert in_hand(view, course(9000.0, 1)) == pytest.approx(there_and_back)
     assert in_hand(view, course(9000.0, 1, 2)) == pytest.approx(there_and_back)
-    near = line([1000.0, 1000.0, 10.0], [1.0, 1.0, 1.0], ROUGH, 1.0)
-    far = in_hand(near, course(9000.0, 1, 2, 3))
-    assert far < in_hand(near, course(9000.0))
+    under_way = Course(1, 0.0, one, 9000.0, ())
+    assert in_hand(view, under_way) == pytest.approx(there_and_back + 1060.0)
+
+
+def test_a_node_on_the_way_home_may_be_worth_more_than_it_costs() -> None:
+    """Half-way home the luck of two legs evens out: to leave the node out gains no time."""
+    view = line([4000.0, 2000.0], [1.0, 0.01], ROUGH, 2.0)
+    assert discard(view, course(7500.0, 1, 2))[1] == (1,)
+    assert discard(view, course(1.0, 2, anchor=1))[1] == ()
+    psi, _ = offers(view, course(9000.0, anchor=1), np.array([2]))
+    assert psi.tolist() == [0.01]
 
 
 def test_the_node_of_least_ratio_is_discarded_first() -> None:
