@@ -1,7 +1,7 @@
 """An AUV as an agent: it knows what it has sensed and what has reached it, and no more.
 
 At a node it compares its remaining route with the time left (24), discards what does not fit
-(25), picks up what lies right before it, which cannot wait for an auction, and reports. What
+(25), looks for a better course over what is its own (`fiveroute.sea.replanning`), and reports. What
 it keeps idle it offers (`fiveroute.sea.auctioneer`), what others offer it bids for
 (`fiveroute.sea.bidder`), and what a silent teammate leaves behind it may take over
 (`fiveroute.sea.watch`).
@@ -17,7 +17,6 @@ from fiveroute.sea.auctioneer import Auctioneer
 from fiveroute.sea.bidder import Bidder
 from fiveroute.sea.channel import Radio
 from fiveroute.sea.course import Course, Outlook
-from fiveroute.sea.discarding import discard
 from fiveroute.sea.events import Kind
 from fiveroute.sea.holdings import Holdings
 from fiveroute.sea.messages import (
@@ -35,10 +34,14 @@ from fiveroute.sea.messages import (
     Wish,
 )
 from fiveroute.sea.picking import Offers, offers
+from fiveroute.sea.replanning import replan
 from fiveroute.sea.voyage import Voyage, course_of
 from fiveroute.sea.watch import Watch
 
-__all__ = ["BEAT", "Agent"]
+__all__ = ["BEAT", "TRIALS", "Agent"]
+
+TRIALS = 100
+"""Attempts to improve its course at every node."""
 
 BEAT = 900.0
 """Longest time in seconds from one report of an AUV to the next."""
@@ -110,8 +113,7 @@ class Agent:
         if own.target is not None:
             own.done.add(own.target)
             own.target = None
-        self._discard(t)
-        self._pick_up_at_once(t)
+        self._replan(t)
         while own.route and own.route[0] in own.pledged:
             self._drop(t, own.route[:1])  # its turn has come before its confirmation
         own.target = own.route.pop(0) if own.route else None
@@ -183,9 +185,17 @@ class Agent:
         """Write into the log of the run."""
         self._voyage.note(t, self.number, kind, node)
 
-    def _discard(self, t: float) -> None:
-        """(24) and (25)."""
-        self._drop(t, discard(self.view, self.course(t))[1])
+    def _replan(self, t: float) -> None:
+        """(24) to (27) for itself alone: the best course over the nodes that are its own."""
+        own, course = self.holdings, self.course(t)
+        seed = (self._voyage.luck.run * 997 + self.number) * 997 + len(own.done)
+        better, left_over = replan(self.view, course, own.kept, TRIALS, seed)
+        picked = own.kept.intersection(better.route)
+        self._drop(t, sorted(set(course.route).intersection(left_over)))
+        own.route[:] = better.route
+        own.kept -= picked
+        for node in sorted(picked):
+            self.note(t, "pick_up", node)
 
     def _drop(self, t: float, nodes: Collection[int]) -> None:
         """Take nodes off the route: they are idle now, or go back to who promised them."""
@@ -197,20 +207,6 @@ class Agent:
             else:
                 own.kept.add(node)
                 self.note(t, "discard", node)
-
-    def _pick_up_at_once(self, t: float) -> None:
-        """Pick up idle nodes of its own that are best visited next, greatest psi first."""
-        own = self.holdings
-        while own.kept:
-            free = sorted(own.kept)
-            psi, place = self.worth(t, free)
-            urgent = np.where(place == 0, psi, 0.0)
-            best = int(urgent.argmax())
-            if urgent[best] <= 0.0:
-                break
-            own.kept.remove(free[best])
-            own.route.insert(0, free[best])
-            self.note(t, "pick_up", free[best])
 
     def _beat(self, t: float) -> None:
         """Now and then: a sign of life, reminders, and a look for signs of others."""

@@ -8,7 +8,6 @@ which time is kept in hand are the same for all of them.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,21 +19,32 @@ from fiveroute.limits import Limits, Progress, ProgressCallback
 from fiveroute.plan import Plan
 from fiveroute.problem import TIME_TOLERANCE
 from fiveroute.sea.channel import PRESETS, Channel
+from fiveroute.sea.clairvoyant import clairvoyant_plan
 from fiveroute.sea.course import Outlook, outlook
 from fiveroute.sea.events import Event
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.alone import Alone, sail_alone
 from fiveroute.sea.planners.five_tier import FiveTier
+from fiveroute.sea.planners.ftcmp import Ftcmp
 from fiveroute.sea.planners.of_one_mind import OfOneMind
 from fiveroute.sea.planners.own_pick_up import OwnPickUp
+from fiveroute.sea.planners.rmmp import Rmmp
 from fiveroute.sea.voyage import Crew, Voyage
 from fiveroute.sea.watch import SILENCE
 from fiveroute.sea.waters import Waters
 
 __all__ = ["PLANNERS", "RunResult", "SimulationResult", "simulate_fleet"]
 
-PLANNERS = ("five-tier", "no-coordination", "of-one-mind", "own-pick-up")
-"""Who can steer."""
+PLANNERS = ("five-tier", "no-coordination", "ftcmp", "rmmp", "of-one-mind", "own-pick-up")
+"""Who can steer: the five-tiered planner with and without its fifth tier, those that the paper
+compares with, and two to learn from: perfect communication, and no auction."""
+
+_KNOWING: dict[str, type[Ftcmp | OfOneMind | OwnPickUp | Rmmp]] = {
+    "ftcmp": Ftcmp,
+    "of-one-mind": OfOneMind,
+    "own-pick-up": OwnPickUp,
+    "rmmp": Rmmp,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,6 +151,7 @@ def simulate_fleet(
     channel: Channel = PRESETS["unlimited"],
     seed: int = 0,
     log: bool = True,
+    gap: bool = False,
     limits: Limits | None = None,
     progress: ProgressCallback | None = None,
 ) -> SimulationResult:
@@ -168,6 +179,8 @@ def simulate_fleet(
         Seed of luck, failures and losses; the same for all planners to be compared.
     log
         Whether to keep the events.
+    gap
+        Whether to look for the clairvoyant plan of every run.
     limits
         When to stop; the runs done so far are returned, one at least.
     progress
@@ -188,7 +201,7 @@ def simulate_fleet(
     )
     clock, done = (limits or Limits()).start(), []
     for run in range(first_run, first_run + runs):
-        done.append(_run(sea, plan, planner, run, log))
+        done.append(_run(sea, plan, planner, run, log, gap))
         if progress is not None:
             progress(Progress(clock.seconds, message=f"run {len(done)} of {runs}"))
         if clock.expired:
@@ -208,10 +221,10 @@ class _Sea:
     seed: int
 
 
-def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool) -> RunResult:
+def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool, gap: bool) -> RunResult:
     problem, luck = sea.waters.problem, Luck(sea.waters.law, sea.seed, run)
     fails = failure_times(problem.budgets, sea.failures, sea.seed, run)
-    if planner == "no-coordination" and not log:
+    if planner == "no-coordination" and not (log or gap):
         return _run_alone(sea.waters, sea.view, plan, luck, fails)
     voyage = Voyage(problem, luck, fails)
     crew = _crew(sea, voyage, plan, planner)
@@ -228,6 +241,7 @@ def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool) -> RunResult:
         tuple(arrivals),
         _late(sea.waters, arrivals),
         len(nodes) - len(set(nodes)),
+        clairvoyant=_best(sea.waters, voyage) if gap else None,
         events=tuple(voyage.log) if log else (),
     )
     if isinstance(crew, FiveTier):
@@ -235,6 +249,16 @@ def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool) -> RunResult:
         takeovers = crew.false_takeovers
         return replace(result, sent=sent, delivered=delivered, false_takeovers=takeovers)
     return result
+
+
+def _best(waters: Waters, voyage: Voyage) -> float:
+    """Completion rate of the clairvoyant plan."""
+    routes: list[list[int]] = [[] for _ in voyage.vessels]
+    for event in voyage.log:
+        if event.kind == "collect" and event.node is not None:
+            routes[event.auv].append(event.node)
+    real, plan = clairvoyant_plan(waters.problem, voyage.luck, Plan.of(routes))
+    return plan.objective(real) / (real.total_profit or 1.0)
 
 
 def _crew(sea: _Sea, voyage: Voyage, plan: Plan, planner: str) -> Crew:
@@ -249,12 +273,9 @@ def _crew(sea: _Sea, voyage: Voyage, plan: Plan, planner: str) -> Crew:
             rng=np.random.default_rng((sea.seed, voyage.luck.run, 2)),
             silence=SILENCE if sea.failures > 0.0 else math.inf,
         )
-    makers: dict[str, Callable[[Voyage, Outlook, Plan], Crew]] = {
-        "no-coordination": Alone,
-        "of-one-mind": OfOneMind,
-        "own-pick-up": OwnPickUp,
-    }
-    return makers[planner](voyage, sea.view, plan)
+    if planner == "no-coordination":
+        return Alone(voyage, sea.view, plan)
+    return _KNOWING[planner](voyage, sea.view, plan)
 
 
 def failure_times(

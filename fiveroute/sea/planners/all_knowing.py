@@ -1,0 +1,90 @@
+"""What planners have in common that know all, at once: routes, idle nodes, and who has failed.
+
+The planners of the literature do not say how word gets round; here it gets round without
+delay or loss, which is more than any fleet under water has.
+"""
+
+from __future__ import annotations
+
+from fiveroute.plan import Plan, Route
+from fiveroute.sea.course import Course, Outlook
+from fiveroute.sea.discarding import discard
+from fiveroute.sea.voyage import Voyage, course_of
+from fiveroute.sea.watch import SILENCE
+
+__all__ = ["AllKnowing"]
+
+
+class AllKnowing:
+    """The state of a fleet that knows all.
+
+    Parameters
+    ----------
+    voyage
+        The run.
+    view
+        What the AUVs expect.
+    plan
+        What they set out with.
+    """
+
+    def __init__(self, voyage: Voyage, view: Outlook, plan: Plan) -> None:
+        self.voyage, self.view = voyage, view
+        self.routes: list[Route] = list(plan.routes)
+        self.idle = set(plan.idle(voyage.problem))
+
+    @property
+    def destination(self) -> int:
+        """The destination vertex."""
+        return self.voyage.problem.destination
+
+    @property
+    def active(self) -> list[int]:
+        """AUVs that may still take a node."""
+        vessels = self.voyage.vessels
+        return [m for m, v in enumerate(vessels) if v.is_active and v.target != self.destination]
+
+    def course(self, auv: int, t: float) -> Course:
+        """What an AUV has before it."""
+        return course_of(self.view, self.voyage.vessels[auv], t, self.routes[auv])
+
+    def at_node(self, auv: int, t: float) -> Course:
+        """What an AUV has before it that has just reached a node."""
+        vessel = self.voyage.vessels[auv]
+        vessel.target = vessel.at
+        return self.course(auv, t)
+
+    def discard(self, auv: int, t: float) -> tuple[Course, Route]:
+        """Shorten the course of an AUV at a node, (24) and (25)."""
+        course, dropped = discard(self.view, self.at_node(auv, t))
+        self.routes[auv] = course.route
+        for node in dropped:
+            self.voyage.note(t, auv, "discard", node)
+        return course, dropped
+
+    def set_route(self, auv: int, t: float, route: Route) -> None:
+        """Give an AUV another route; what is new on it has been picked up."""
+        for node in sorted(set(route) - set(self.routes[auv])):
+            self.voyage.note(t, auv, "pick_up", node)
+        self.routes[auv] = route
+
+    def abandoned(self, t: float) -> Route:
+        """Take the nodes of AUVs that failed long enough ago to be noticed off their routes."""
+        nodes: list[int] = []
+        for m, vessel in enumerate(self.voyage.vessels):
+            if vessel.is_alive or t < self.voyage.failures[m] + SILENCE:
+                continue
+            if vessel.target not in (vessel.at, self.destination):
+                nodes.append(vessel.target)
+            nodes += self.routes[m]
+            self.routes[m], vessel.target = (), vessel.at
+        return tuple(nodes)
+
+    def depart(self, auv: int) -> int:
+        """Take the first node off the route of an AUV: where it sails to next."""
+        first, *rest = (*self.routes[auv], self.destination)
+        self.routes[auv] = tuple(rest[:-1])
+        return first
+
+    def come_home(self, auv: int, t: float) -> None:
+        """Nothing is left to do."""
