@@ -98,6 +98,6 @@ def _clusters(
 def _cells(
     problem: TeamOrienteering, points: NDArray[np.float64], rng: np.random.Generator
 ) -> Plan:
-    """Voronoi cells of random sites, and a short route through each as far as time allows."""
-    cells = sub_routes(problem, voronoi(points, problem.fleet_size, rng))
+    """Voronoi cells of settled sites, and a short route through each as far as time allows."""
+    cells = sub_routes(problem, voronoi(points, problem.fleet_size, rng, "lloyd"))
     return Plan(tuple(trim(problem, auv, route) for auv, route in enumerate(cells)))

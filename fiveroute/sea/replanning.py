@@ -3,7 +3,7 @@
 Discarding and picking up move one node at a time. Here an AUV looks for the best course over
 the nodes of its remaining route and the idle nodes that it may take: strings of nodes are taken out
 at random, and the course is filled up again by psi (27), blurred by chance, as long as its time in
-hand stays non-negative. What collects more is kept, and of equal data what takes less time. A
+hand stays non-negative. What collects more is kept, and of equal data what leaves more time. A
 course that does not fit at first is shortened by (25) before.
 
 Reference: J. Christiaens and G. Vanden Berghe, "Slack induction by string removals for vehicle
@@ -82,7 +82,7 @@ def _improve(
     """Improve stops in place; returns the new length."""
     end = stops[length - 1]
     best, trial, is_on = stops.copy(), stops.copy(), np.zeros(end + 1, np.bool_)
-    most, least = _worth(view, best, length)
+    most, spare = _data(view, best, length), time_in_hand(view, best, length, left, spread)
     for k in range(trials):
         trial[:length] = best[:length]
         size = length
@@ -92,23 +92,22 @@ def _improve(
         for at in range(1, size - 1):
             is_on[trial[at]] = True
         size = _fill_up(view, trial, size, left, spread, pool, is_on, _BLUR if k else 0.0, state)
-        data, time = _worth(view, trial, size)
-        better = data > most + 1e-9 or (data > most - 1e-9 and time < least - 1e-9)
-        if better and time_in_hand(view, trial, size, left, spread) >= 0.0:
+        data, hand = _data(view, trial, size), time_in_hand(view, trial, size, left, spread)
+        better = data > most + 1e-9 or (data > most - 1e-9 and hand > spare + 1e-9)
+        if better and hand >= 0.0:
             best[:size] = trial[:size]
-            length, most, least = size, data, time
+            length, most, spare = size, data, hand
     stops[:length] = best[:length]
     return length
 
 
 @kernel
-def _worth(view: Outlook, stops: Stops, length: int) -> tuple[float, float]:
-    """Data and time of a course."""
-    data, time = 0.0, 0.0
+def _data(view: Outlook, stops: Stops, length: int) -> float:
+    """Data collected on a course."""
+    data = 0.0
     for at in range(1, length):
         data += view.profit[stops[at]]
-        time += view.legs[stops[at - 1], stops[at]]
-    return data, time
+    return data
 
 
 @kernel

@@ -2,11 +2,12 @@
 
 The paper says of it that its upper level plans the route of each vehicle in real time, during the
 voyage, from global information. The planner itself could not be had in full; this is a
-reconstruction from what the paper says, and no reproduction. At every node all unvisited nodes are
-shared out anew: each goes to the AUV whose position is nearest, distances being weighted by
-remaining time (the Voronoi cells of a moving fleet). The AUV at the node then plans a short route
-over the `HORIZON` nearest nodes of its cell, by the same search as the five-tiered planner's, and
-sails to the first. Nobody plans further ahead, but everybody keeps the time to come home.
+reconstruction from what the paper says, and no reproduction. The fleet sets out with Voronoi
+cells. At every node all unvisited nodes are shared out anew, to the AUV that passes nearest on
+what it has left of its route, distances being weighted by remaining time (the Voronoi cells of a
+moving fleet); the AUV at the node then plans its whole route over its cell again, by the same
+search as the five-tiered planner's. With a horizon of some nodes only, or with cells about
+positions instead of routes, it collects less.
 
 Reference: S. Sun, B. Song, P. Wang, H. Dong, X. Chen, "Real-time mission-motion planner for
 multi-UUVs cooperative work using tri-level programing", IEEE Transactions on Intelligent
@@ -19,14 +20,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from fiveroute.plan import Route
 from fiveroute.sea.planners.all_knowing import AllKnowing
 from fiveroute.sea.replanning import replan
 
-__all__ = ["HORIZON", "TRIALS", "Rmmp"]
-
-HORIZON = 5
-"""Nodes of the cell that a route is planned over."""
+__all__ = ["TRIALS", "Rmmp"]
 
 TRIALS = 100
 """Attempts to improve a route."""
@@ -36,26 +33,29 @@ class Rmmp(AllKnowing):
     """Steers the fleet of one run."""
 
     def steer(self, auv: int, t: float) -> int:
-        """The next vertex of an AUV, planned from scratch."""
-        here = replace(self.at_node(auv, t), route=())
-        self._free(t)
+        """The next vertex of an AUV, its route planned anew."""
+        self.idle.update(self.abandoned(t))
+        course = self.at_node(auv, t)
         cell = self._cell(auv, t)
-        nearest = sorted(cell, key=lambda node: self.view.legs[here.anchor, node])[:HORIZON]
-        course, _ = replan(self.view, here, nearest, TRIALS, self.voyage.luck.run)
-        self.routes[auv] = course.route
-        self.idle.difference_update(course.route[:1])
+        own = tuple(node for node in course.route if node in cell)
+        seed = self.voyage.luck.run * 997 + auv
+        better, _ = replan(self.view, replace(course, route=own), cell, TRIALS, seed)
+        self.idle.update(cell, course.route)
+        self.idle.difference_update(better.route)
+        for m in self.active:
+            if m != auv:
+                self.routes[m] = tuple(node for node in self.routes[m] if node not in cell)
+        self.routes[auv] = better.route
         return self.depart(auv)
 
-    def _free(self, t: float) -> None:
-        """Nobody owns a node but the one it is under way to."""
-        self.idle.update(self.abandoned(t), *self.routes)
-        self.routes = [()] * len(self.routes)
-
-    def _cell(self, auv: int, t: float) -> Route:
-        """Idle nodes that are nearer to this AUV than to any other, remaining time considered."""
-        idle, fleet = np.array(sorted(self.idle), dtype=np.int64), self.active
-        vessels = self.voyage.vessels
-        left = np.array([max(vessels[m].budget - self.course(m, t).time, 1.0) for m in fleet])
-        distance = self.view.legs[[vessels[m].target for m in fleet]][:, idle]
-        nearest = (distance / left[:, None]).argmin(axis=0)
-        return tuple(idle[nearest == fleet.index(auv)].tolist())
+    def _cell(self, auv: int, t: float) -> set[int]:
+        """Unvisited nodes that lie nearest to what this AUV has before it."""
+        fleet, vessels = self.active, self.voyage.vessels
+        nodes = np.array(sorted(self.idle.union(*(self.routes[m] for m in fleet))), dtype=np.int64)
+        distance = np.empty((len(fleet), len(nodes)))
+        for k, m in enumerate(fleet):
+            stops = [vessels[m].target, *self.routes[m]]
+            left = max(vessels[m].budget - self.course(m, t).time, 1.0)
+            distance[k] = self.view.legs[stops][:, nodes].min(axis=0) / left
+            distance[k, np.isin(nodes, self.routes[m])] = 0.0
+        return set(nodes[distance.argmin(axis=0) == fleet.index(auv)].tolist())
