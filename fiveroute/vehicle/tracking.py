@@ -1,0 +1,392 @@
+"""Sailing a planned track in the true ocean: motion, guidance and avoidance together.
+
+In every step the guidance chooses a heading by the position on the present leg; every ping of the
+sonar may replace it by a heading that avoids; the vehicle then moves for a step on the heading
+commanded. A waypoint has been reached when the vehicle is abeam of it or about to be, the last
+one when it is also near. The steps are Runge and Kutta's of fourth order and half a second long:
+a seventh of the fastest time constant of a vehicle at 1 m/s, 1.5 s in sway, at which a turn of
+a minute errs by less than 0.01 mm.
+
+Where every heading leads into obstacles, the propeller goes astern with the thrust that it has
+ahead, which stops the vehicle within (m - X_du) ln 2 / (-2 X_uu) = 6.7 m through the water.
+
+Every voyage ends: where the rest of the way has not become shorter for some time, it is given up,
+and the track says whether the current or obstacles were in the way. A track that meets a
+barrier ends there. What clearance the vehicle kept is computed from the track it left behind.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fiveroute.errors import InputError
+from fiveroute.kernels import kernel
+from fiveroute.ocean.barriers import Barriers, clearance, leg_clearance, no_barriers
+from fiveroute.ocean.current_grid import CurrentGrid, velocity
+from fiveroute.vehicle.dynamics import Motion, State, Vehicle, advance
+from fiveroute.vehicle.guidance import Guidance, Steering, adapted, desired_heading
+from fiveroute.vehicle.obstacle_avoidance import Avoidance, Lookout, Manoeuvre, avoid, nearby
+from fiveroute.vehicle.sonar import land_of, listen
+
+__all__ = ["STEP", "Outcome", "SailedTrack", "least_clearance", "sail_track"]
+
+Floats = NDArray[np.float64]
+
+STEP = 0.5
+"""Seconds in one step of the motion."""
+
+_ECHOES = 512  # that are remembered
+_PROGRESS = 1.0  # metres that count as progress
+_SLOWEST = 20.0  # times what still water takes, after which a voyage is broken off
+_X, _Y, _HEADING, _ERROR, _MANOEUVRE = range(5)  # columns of the log
+
+
+class Outcome(IntEnum):
+    """How a voyage ended."""
+
+    ARRIVED = 0
+    """At the last waypoint."""
+    SWEPT = 1
+    """Given up: the current was too strong."""
+    BLOCKED = 2
+    """Given up, or stopped short of obstacles: no way past them was found."""
+    COLLIDED = 3
+    """Into a barrier."""
+    LATE = 4
+    """Out of time."""
+
+
+_ARRIVED, _SWEPT, _BLOCKED, _COLLIDED, _LATE = map(int, Outcome)
+
+
+class _Course(NamedTuple):
+    """What to sail, and when to stop trying."""
+
+    track: Floats
+    left: Floats  # metres from each waypoint to the end
+    begin: float
+    step: float
+    switch: float
+    reach: float
+    patience: float
+
+
+class _Place(NamedTuple):
+    """Where a vehicle is on a leg: bearing, metres to port of it, metres left to its end."""
+
+    bearing: float
+    error: float
+    left: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SailedTrack:
+    """What a vehicle did.
+
+    Parameters
+    ----------
+    outcome
+        How it ended.
+    times
+        In seconds, shape (k,), equally spaced.
+    positions
+        In metres, shape (k, 2).
+    headings
+        In radians anticlockwise from east, not wrapped, shape (k,).
+    cross_track
+        Distance in metres to port of the leg that was sailed, shape (k,).
+    manoeuvre
+        Number of the avoidance manoeuvre under way, counted from 1, or 0, shape (k,).
+    arrivals
+        When each waypoint was reached, in seconds; infinite if it was not.
+    least_clearance
+        Of the straight pieces between the positions, in metres.
+    """
+
+    outcome: Outcome
+    times: Floats
+    positions: Floats
+    headings: Floats
+    cross_track: Floats
+    manoeuvre: NDArray[np.int64]
+    arrivals: Floats
+    least_clearance: float
+
+    @property
+    def duration(self) -> float:
+        """Seconds from the first position to the last."""
+        return float(self.times[-1] - self.times[0])
+
+    @property
+    def manoeuvres(self) -> int:
+        """Number of avoidance manoeuvres."""
+        return int(self.manoeuvre.max())
+
+    @property
+    def manoeuvring(self) -> float:
+        """Seconds spent in avoidance manoeuvres."""
+        return float(np.diff(self.times)[self.manoeuvre[:-1] > 0].sum())
+
+
+def sail_track(
+    grid: CurrentGrid,
+    track: ArrayLike,
+    vehicle: Vehicle,
+    *,
+    barriers: Barriers | None = None,
+    guidance: Guidance | None = None,
+    avoidance: Avoidance | None = None,
+    begin: float = 0.0,
+    heading: float | None = None,
+    longest: float = math.inf,
+    patience: float = 1800.0,
+    switch: float = 5.0,
+    reach: float = 20.0,
+    step: float = STEP,
+) -> SailedTrack:
+    """Sail a track through the true ocean.
+
+    Parameters
+    ----------
+    grid
+        The true current.
+    track
+        Waypoints in metres, shape (k, 2).
+    vehicle
+        The vehicle, which sets off at its speed.
+    barriers
+        The true obstacles, whether the plan knew them or not; None is open water.
+    guidance, avoidance
+        How it keeps to the legs, ALOS by default, and how it avoids what its sonar finds.
+    begin
+        When it sets off, in seconds.
+    heading
+        On what heading, in radians anticlockwise from east; None takes that of the first leg.
+    longest
+        Seconds after which the voyage is broken off; twenty times what still water takes at most.
+    patience
+        Seconds without progress after which it is given up.
+    switch
+        Metres before a waypoint at which the next leg begins; 5 m as in Fossen's simulator of the
+        REMUS 100.
+    reach
+        Metres from the last waypoint within which it counts as reached, once the vehicle is
+        abeam of it; about the turning radius, and within optical range of a node.
+    step
+        Seconds in one step.
+    """
+    points = _checked(track, {"step": step, "patience": patience, "longest": longest})
+    barriers = _without_edge(barriers or no_barriers())
+    pieces = np.hypot(*np.diff(points, axis=0).T)
+    left = np.append(np.cumsum(pieces[::-1])[::-1], 0.0)
+    if heading is None:
+        east, north = points[np.argmax(pieces > 0.0) + 1] - points[0]
+        heading = math.atan2(north, east)
+    time = min(longest, _SLOWEST * left[0] / vehicle.speed + patience)
+    log = np.empty((math.ceil(time / step) + 1, 5))
+    arrivals = np.full(len(points), math.inf)
+    motion = vehicle.motion
+    count, outcome = _sail(
+        motion,
+        motion._replace(thrust=-motion.thrust),
+        (guidance or Guidance()).steering,
+        (avoidance or Avoidance()).lookout(vehicle, barriers.margin),
+        grid,
+        barriers,
+        land_of(barriers),
+        _Course(points, left, *map(float, (begin, step, switch, reach, patience))),
+        vehicle.under_way(points[0, 0], points[0, 1], heading),
+        log,
+        arrivals,
+    )
+    times = begin + step * np.arange(count, dtype=np.float64)
+    return _sailed(Outcome(outcome), times, log, arrivals, barriers)
+
+
+def _sailed(
+    outcome: Outcome, times: Floats, log: Floats, arrivals: Floats, barriers: Barriers
+) -> SailedTrack:
+    """What the log of a voyage says, as far as it was written."""
+    columns = log[: len(times)].T.copy()
+    positions = np.ascontiguousarray(columns[[_X, _Y]].T)
+    return SailedTrack(
+        outcome,
+        times,
+        positions,
+        columns[_HEADING],
+        columns[_ERROR],
+        columns[_MANOEUVRE].astype(np.int64),
+        arrivals,
+        least_clearance(barriers, positions),
+    )
+
+
+def _without_edge(barriers: Barriers) -> Barriers:
+    """Barriers without the edge of the data, which stops a planner but no vehicle."""
+    infinite = math.inf
+    return barriers._replace(west=-infinite, south=-infinite, east=infinite, north=infinite)
+
+
+def _checked(track: ArrayLike, times: dict[str, float]) -> Floats:
+    points = np.array(track, dtype=np.float64)
+    if points.ndim != 2 or points.shape[1:] != (2,) or len(points) < 2:
+        raise InputError("takes two waypoints at least, (k, 2)", field="track", value=points.shape)
+    if not np.isfinite(points).all():
+        raise InputError("all waypoints must be finite", field="track")
+    for name, seconds in times.items():
+        if not seconds > 0.0:
+            raise InputError("must be positive, in seconds", field=name, value=seconds)
+    return points
+
+
+@kernel
+def least_clearance(barriers: Barriers, positions: Floats) -> float:
+    """Least clearance in metres of the straight pieces between positions, shape (k, 2).
+
+    A piece is left out only where the clearance that was last computed, less the way since, shows
+    that it cannot be the least.
+    """
+    x, y = positions[0]
+    known = least = clearance(barriers, x, y)
+    for k in range(1, len(positions)):
+        x0, y0, x, y = x, y, positions[k, 0], positions[k, 1]
+        known -= math.hypot(x - x0, y - y0)
+        if known <= least:
+            least = min(least, leg_clearance(barriers, x0, y0, x, y))
+            known = clearance(barriers, x, y)
+    return least
+
+
+@kernel
+def _sail(
+    motion: Motion,
+    astern: Motion,
+    steering: Steering,
+    lookout: Lookout,
+    grid: CurrentGrid,
+    barriers: Barriers,
+    land: Barriers,
+    course: _Course,
+    state: State,
+    log: Floats,
+    arrivals: Floats,
+) -> tuple[int, int]:
+    """Fill in the log and the arrivals; return the rows that were written and the outcome."""
+    echoes, heard, ping = np.empty((_ECHOES, 2)), 0, course.begin
+    leg, homing, memory, desired = 0, False, 0.0, state.heading
+    manoeuvre, number = Manoeuvre(0.0, desired, -math.inf, False), 0
+    best, progressed = math.inf, course.begin
+    free = clearance(barriers, state.x, state.y)  # no barrier is nearer than this
+    arrivals[0] = course.begin
+    for k in range(len(log)):
+        t = course.begin + k * course.step
+        leg = _next_leg(course, state, leg, t, arrivals)
+        place = _place(course, leg, state)
+        if place.left <= 0.0 and not homing:
+            homing, best = True, math.inf
+        if homing:
+            place = _homeward(course, state)
+        _write(log, k, state, place, number if manoeuvre.side != 0.0 else 0)
+        if free < 0.0:
+            return k + 1, _COLLIDED
+        if homing and place.left <= course.reach:
+            arrivals[-1] = t
+            return k + 1, _ARRIVED
+        left = place.left + course.left[leg + 1]
+        if left < best - _PROGRESS and state.surge > 0.0:
+            best, progressed = left, t
+        elif t - progressed > course.patience or state.surge <= 0.0:
+            blocked = manoeuvre.hopeless or manoeuvre.blocked >= progressed
+            return k + 1, _BLOCKED if blocked else _SWEPT
+        aim = place.bearing
+        if not homing:
+            aim = desired_heading(steering, place.bearing, place.error, memory)
+        desired += _wrapped(aim - desired)
+        if t >= ping and not manoeuvre.hopeless:
+            ping += lookout.beams.period
+            if free < lookout.beams.reach:
+                free = clearance(barriers, state.x, state.y)
+                heard = listen(lookout.beams, barriers, land, state, echoes, heard)
+            before = manoeuvre.side
+            manoeuvre = _look_out(lookout, grid, echoes, heard, state, desired, manoeuvre, t)
+            number += before == 0.0 and manoeuvre.side != 0.0
+        calm = manoeuvre.side == 0.0
+        commanded = desired if calm else manoeuvre.heading
+        engine = astern if manoeuvre.hopeless else motion
+        moved = advance(engine, grid, state, commanded, t, course.step)
+        if calm and not homing:
+            memory = adapted(steering, place.error, memory, course.step)
+        free -= math.hypot(moved.x - state.x, moved.y - state.y)
+        if free < 0.0:
+            free = leg_clearance(barriers, state.x, state.y, moved.x, moved.y)
+        state = moved
+    return len(log), _LATE
+
+
+@kernel
+def _look_out(
+    lookout: Lookout,
+    grid: CurrentGrid,
+    echoes: Floats,
+    heard: int,
+    state: State,
+    desired: float,
+    manoeuvre: Manoeuvre,
+    t: float,
+) -> Manoeuvre:
+    """Begin, continue or end a manoeuvre by the echoes that are near."""
+    near = np.empty((len(echoes) if heard else 0, 2))
+    number = nearby(echoes, heard, state.x, state.y, lookout.beams.reach, near)
+    if number == 0 and manoeuvre.side == 0.0:
+        return manoeuvre
+    current = velocity(grid, state.x, state.y, t)
+    return avoid(lookout, near[:number], state, current, desired, manoeuvre, t)
+
+
+@kernel
+def _next_leg(course: _Course, state: State, leg: int, t: float, arrivals: Floats) -> int:
+    """The leg to sail, once the waypoints that have been reached are left behind."""
+    while leg < len(course.track) - 2 and _place(course, leg, state).left <= course.switch:
+        leg += 1
+        arrivals[leg] = t
+    return leg
+
+
+@kernel
+def _place(course: _Course, leg: int, state: State) -> _Place:
+    x0, y0 = course.track[leg]
+    x1, y1 = course.track[leg + 1]
+    length = course.left[leg] - course.left[leg + 1]
+    if length == 0.0:
+        return _Place(state.heading, 0.0, 0.0)
+    east, north = (x1 - x0) / length, (y1 - y0) / length
+    return _Place(
+        math.atan2(north, east),
+        (state.y - y0) * east - (state.x - x0) * north,
+        (x1 - state.x) * east + (y1 - state.y) * north,
+    )
+
+
+@kernel
+def _homeward(course: _Course, state: State) -> _Place:
+    """Straight to the last waypoint."""
+    x, y = course.track[-1]
+    east, north = x - state.x, y - state.y
+    return _Place(math.atan2(north, east), 0.0, math.hypot(east, north))
+
+
+@kernel
+def _wrapped(angle: float) -> float:
+    return angle - 2.0 * math.pi * round(angle / (2.0 * math.pi))
+
+
+@kernel
+def _write(log: Floats, k: int, state: State, place: _Place, manoeuvre: int) -> None:
+    log[k, _X], log[k, _Y], log[k, _HEADING] = state.x, state.y, state.heading
+    log[k, _ERROR], log[k, _MANOEUVRE] = place.error, manoeuvre
