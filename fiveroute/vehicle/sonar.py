@@ -107,53 +107,59 @@ def listen(
 
     The barriers are taken without their land, which is `land`.
     """
+    fan = np.empty((beams.number, 3))  # direction, and distance to the first barrier
     for beam in range(beams.number):
         angle = state.heading + beams.first + beam * beams.between
-        ahead, left = math.cos(angle), math.sin(angle)
-        distance = _to_circles(barriers, state.x, state.y, ahead, left, beams.reach)
-        distance = _to_polygons(barriers, state.x, state.y, ahead, left, distance)
+        fan[beam] = math.cos(angle), math.sin(angle), beams.reach
+    _hear_circles(barriers, state.x, state.y, beams.reach, fan)
+    _hear_polygons(barriers, state.x, state.y, beams.reach, fan)
+    for ahead, left, distance in fan:
         if land.land.size:
             distance = _to_land(land, state.x, state.y, ahead, left, distance)
         if distance < beams.reach:
-            x, y = state.x + distance * ahead, state.y + distance * left
-            heard = _remember(echoes, heard, x, y)
+            heard = _remember(echoes, heard, state.x + distance * ahead, state.y + distance * left)
     return heard
 
 
 @kernel
-def _to_circles(
-    barriers: Barriers, x: float, y: float, ahead: float, left: float, farthest: float
-) -> float:
-    """Distance along a beam to the first circle, if that is nearer."""
+def _hear_circles(barriers: Barriers, x: float, y: float, reach: float, fan: Floats) -> None:
+    """Shorten the beams that meet a circle."""
     for k in range(len(barriers.circles)):
+        radius = barriers.circles[k, 2]
         east, north = barriers.circles[k, 0] - x, barriers.circles[k, 1] - y
-        along, across = east * ahead + north * left, north * ahead - east * left
-        squared = barriers.circles[k, 2] ** 2 - across * across
-        if squared >= 0.0:
-            distance = along - math.sqrt(squared)
-            if 0.0 <= distance < farthest:
-                farthest = distance
-    return farthest
+        if east * east + north * north >= (reach + radius) ** 2:
+            continue
+        for beam in range(len(fan)):
+            ahead, left, farthest = fan[beam]
+            along, across = east * ahead + north * left, north * ahead - east * left
+            squared = radius * radius - across * across
+            if squared >= 0.0 and 0.0 <= along - math.sqrt(squared) < farthest:
+                fan[beam, 2] = along - math.sqrt(squared)
 
 
 @kernel
-def _to_polygons(
-    barriers: Barriers, x: float, y: float, ahead: float, left: float, farthest: float
-) -> float:
-    """Distance along a beam to the first edge of a polygon, if that is nearer."""
+def _hear_polygons(barriers: Barriers, x: float, y: float, reach: float, fan: Floats) -> None:
+    """Shorten the beams that meet an edge of a polygon."""
     for k in range(len(barriers.first) - 1):
         first, last = barriers.first[k], barriers.first[k + 1]
-        east, north = barriers.corners[last - 1, 0] - x, barriers.corners[last - 1, 1] - y
-        along0, across0 = east * ahead + north * left, north * ahead - east * left
+        xa, ya = barriers.corners[last - 1, 0] - x, barriers.corners[last - 1, 1] - y
         for corner in range(first, last):
-            east, north = barriers.corners[corner, 0] - x, barriers.corners[corner, 1] - y
-            along, across = east * ahead + north * left, north * ahead - east * left
-            if (across > 0.0) != (across0 > 0.0):
-                distance = along0 + (along - along0) * across0 / (across0 - across)
-                if 0.0 <= distance < farthest:
-                    farthest = distance
-            along0, across0 = along, across
-    return farthest
+            xb, yb = barriers.corners[corner, 0] - x, barriers.corners[corner, 1] - y
+            if max(min(xa, xb), min(ya, yb), -max(xa, xb), -max(ya, yb)) < reach:
+                _hear_edge(xa, ya, xb, yb, fan)
+            xa, ya = xb, yb
+
+
+@kernel
+def _hear_edge(xa: float, ya: float, xb: float, yb: float, fan: Floats) -> None:
+    for beam in range(len(fan)):
+        ahead, left, farthest = fan[beam]
+        across_a, across_b = ya * ahead - xa * left, yb * ahead - xb * left
+        if (across_a > 0.0) != (across_b > 0.0):
+            along_a, along_b = xa * ahead + ya * left, xb * ahead + yb * left
+            distance = along_a + (along_b - along_a) * across_a / (across_a - across_b)
+            if 0.0 <= distance < farthest:
+                fan[beam, 2] = distance
 
 
 @kernel
