@@ -3,9 +3,9 @@
 In every step the guidance chooses a heading by the position on the present leg; every ping of the
 sonar may replace it by a heading that avoids; the vehicle then moves for a step on the heading
 commanded. A waypoint has been reached when the vehicle is abeam of it or about to be, the last
-one when it is also near. The steps are Runge and Kutta's of fourth order and half a second long:
-a seventh of the fastest time constant of a vehicle at 1 m/s, 1.5 s in sway, at which a turn of
-a minute errs by less than 0.01 mm.
+one when it is also near. The steps are Runge and Kutta's of fourth order and half a second long,
+a quarter of the shortest time constant of a vehicle at 1 m/s (2.3 s, of sway): a turn of a minute
+then errs by less than 0.01 mm.
 
 Where every heading leads into obstacles, the propeller goes astern with the thrust that it has
 ahead, which stops the vehicle within (m - X_du) ln 2 / (-2 X_uu) = 6.7 m through the water.
@@ -286,42 +286,47 @@ def _sail(
     arrivals[0] = course.begin
     for k in range(len(log)):
         t = course.begin + k * course.step
+
+        # where is it, and is that the end?
         leg = _next_leg(course, state, leg, t, arrivals)
         place = _place(course, leg, state)
         if place.left <= 0.0 and not homing:
             homing, best = True, math.inf
         if homing:
             place = _homeward(course, state)
-        _write(log, k, state, place, number if manoeuvre.side != 0.0 else 0)
+        calm = manoeuvre.side == 0.0
+        _write(log, k, state, place, 0 if calm else number)
         if free < 0.0:
             return k + 1, _COLLIDED
         if homing and place.left <= course.reach:
             arrivals[-1] = t
             return k + 1, _ARRIVED
         left = place.left + course.left[leg + 1]
-        if left < best - _PROGRESS and state.surge > 0.0:
+        if left < best - _PROGRESS:
             best, progressed = left, t
-        elif t - progressed > course.patience or state.surge <= 0.0:
-            blocked = manoeuvre.hopeless or manoeuvre.blocked >= progressed
-            return k + 1, _BLOCKED if blocked else _SWEPT
+        stopped = manoeuvre.hopeless and state.surge <= 0.0
+        if stopped or t - progressed > course.patience:
+            return k + 1, _BLOCKED if stopped or manoeuvre.blocked >= progressed else _SWEPT
+
+        # where should it go?
         aim = place.bearing
         if not homing:
             aim = desired_heading(steering, place.bearing, place.error, memory)
+        if calm and not homing:
+            memory = adapted(steering, place.error, memory, course.step)
         desired += _wrapped(aim - desired)
         if t >= ping and not manoeuvre.hopeless:
             ping += lookout.beams.period
             if free < lookout.beams.reach:
                 free = clearance(barriers, state.x, state.y)
                 heard = listen(lookout.beams, barriers, land, state, echoes, heard)
-            before = manoeuvre.side
             manoeuvre = _look_out(lookout, grid, echoes, heard, state, desired, manoeuvre, t)
-            number += before == 0.0 and manoeuvre.side != 0.0
-        calm = manoeuvre.side == 0.0
-        commanded = desired if calm else manoeuvre.heading
+            number += calm and manoeuvre.side != 0.0
+
+        # go there for a step
+        heading = desired if manoeuvre.side == 0.0 else manoeuvre.heading
         engine = astern if manoeuvre.hopeless else motion
-        moved = advance(engine, grid, state, commanded, t, course.step)
-        if calm and not homing:
-            memory = adapted(steering, place.error, memory, course.step)
+        moved = advance(engine, grid, state, heading, t, course.step)
         free -= math.hypot(moved.x - state.x, moved.y - state.y)
         if free < 0.0:
             free = leg_clearance(barriers, state.x, state.y, moved.x, moved.y)
@@ -341,7 +346,9 @@ def _look_out(
     t: float,
 ) -> Manoeuvre:
     """Begin, continue or end a manoeuvre by the echoes that are near."""
-    near = np.empty((len(echoes) if heard else 0, 2))
+    if heard == 0:
+        return manoeuvre
+    near = np.empty((len(echoes), 2))
     number = nearby(echoes, heard, state.x, state.y, lookout.beams.reach, near)
     if number == 0 and manoeuvre.side == 0.0:
         return manoeuvre
