@@ -18,6 +18,7 @@ COMMANDS = {
     "giant-route": "One route through every node: tier 1's first step alone.",
     "gap": "Compare the planner with exact solutions or bounds, a row an instance.",
     "path": "The fastest path between two stops in the current: tier 3 alone.",
+    "simulate": "Carry a plan out in the uncertain ocean, again and again.",
     "verify": "Judge a plan: every violation, with its AUV, node and amount.",
     "generate": "Make scenarios: the paper's distribution and other layouts.",
     "convert": "Translate an instance from one file format to another.",

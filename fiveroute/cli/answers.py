@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from fiveroute.experiments.gap_table import GapRow, GapSummary
     from fiveroute.formats.plan_file import PlanFile
     from fiveroute.mission import MissionPlan
+    from fiveroute.paths.voyage import Voyage
+    from fiveroute.sea.simulation import SimulationResult
     from fiveroute.tiers.pathing import PlannedPath
 
 __all__ = [
@@ -33,8 +35,10 @@ __all__ = [
     "print_json",
     "print_path",
     "print_routes",
+    "print_simulation",
     "print_table",
     "print_verdict",
+    "simulation_answer",
     "solve_answer",
     "verify_answer",
 ]
@@ -155,6 +159,62 @@ def print_path(answer: Mapping[str, Any]) -> None:
 
 def _radius(curvature: float) -> str:
     return f"radius {1.0 / curvature:.0f} m" if curvature > 0.0 else "none"
+
+
+def simulation_answer(voyage: Voyage, result: SimulationResult, seed: int) -> dict[str, Any]:
+    """The keys of `simulate`; completion is that of the whole mission."""
+    import numpy as np
+
+    total = sum(node.data for node in voyage.mission.nodes)
+    reached = sum(node.data for node in voyage.instance.nodes)
+    share = reached / total if total > 0.0 else 1.0
+    rates = share * result.completions
+    least, low, middle, high, most = np.percentile(rates, (0, 25, 50, 75, 100)).tolist()
+    sent, delivered = result.messages
+    return {
+        "instance": voyage.mission.name,
+        "planner": result.planner,
+        "runs": len(result.runs),
+        "fleet_size": result.fleet_size,
+        "completion": {
+            "mean": float(rates.mean()),
+            "std": float(rates.std(ddof=1)) if len(rates) > 1 else 0.0,
+            "min": least,
+            "p25": low,
+            "median": middle,
+            "p75": high,
+            "max": most,
+        },
+        "planned_completion": share * result.planned_completion,
+        "online_gap": result.online_gap,
+        "late_returns": result.late_returns,
+        "double_visits": result.double_visits,
+        "messages": {"sent": sent, "delivered": delivered},
+        "unreachable": list(voyage.unreachable),
+        "straight_lines": voyage.legs is None,
+        "seconds": result.seconds,
+        "seed": seed,
+    }
+
+
+def print_simulation(answer: Mapping[str, Any]) -> None:
+    """Print what became of a fleet for people."""
+    rates = answer["completion"]
+    sent, delivered = answer["messages"]["sent"], answer["messages"]["delivered"]
+    fleet = answer["fleet_size"]
+    click.echo(f"{answer['instance']}: {answer['runs']} runs of {fleet} AUVs, {answer['planner']}")
+    figures = [
+        ("collected", f"{100 * rates['mean']:.1f} % of all data (std {100 * rates['std']:.1f})"),
+        ("range", f"{100 * rates['min']:.1f} to {100 * rates['max']:.1f} %"),
+        ("planned", f"{100 * answer['planned_completion']:.1f} %"),
+        ("late returns", f"{answer['late_returns']} of {answer['runs'] * fleet}"),
+        ("double visits", str(answer["double_visits"])),
+        ("messages", f"{sent} sent, {delivered} received"),
+    ]
+    if answer["online_gap"] is not None:
+        figures.append(("online gap", f"{100 * answer['online_gap']:.1f} % to the clairvoyant"))
+    for name, text in figures:
+        click.echo(f"{name:<16}{text}")
 
 
 def verify_answer(

@@ -29,9 +29,9 @@ from fiveroute.sea.planners.ftcmp import Ftcmp
 from fiveroute.sea.planners.of_one_mind import OfOneMind
 from fiveroute.sea.planners.own_pick_up import OwnPickUp
 from fiveroute.sea.planners.rmmp import Rmmp
+from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Crew, Voyage
 from fiveroute.sea.watch import SILENCE
-from fiveroute.sea.waters import Waters
 
 __all__ = ["PLANNERS", "RunResult", "SimulationResult", "simulate_fleet"]
 
@@ -139,7 +139,7 @@ class SimulationResult:
 
 
 def simulate_fleet(
-    waters: Waters,
+    theatre: Theatre,
     plan: Plan,
     *,
     planner: str = "five-tier",
@@ -159,7 +159,7 @@ def simulate_fleet(
 
     Parameters
     ----------
-    waters
+    theatre
         The mission.
     plan
         The routes with which the fleet sets out.
@@ -191,10 +191,10 @@ def simulate_fleet(
     InputError
         If an option or the plan makes no sense.
     """
-    _check_options(waters, plan, planner, runs, reserve, failures)
+    _check_options(theatre, plan, planner, runs, reserve, failures)
     sea = _Sea(
-        waters,
-        outlook(waters.problem, waters.law, reserve),
+        theatre,
+        outlook(theatre.problem, theatre.law, reserve),
         channel if loss is None else replace(channel, loss=loss),
         failures,
         seed,
@@ -206,15 +206,17 @@ def simulate_fleet(
             progress(Progress(clock.seconds, message=f"run {len(done)} of {runs}"))
         if clock.expired:
             break
-    planned = plan.objective(waters.problem) / (waters.problem.total_profit or 1.0)
-    return SimulationResult(planner, waters.problem.fleet_size, planned, tuple(done), clock.seconds)
+    planned = plan.objective(theatre.problem) / (theatre.problem.total_profit or 1.0)
+    return SimulationResult(
+        planner, theatre.problem.fleet_size, planned, tuple(done), clock.seconds
+    )
 
 
 @dataclass(frozen=True, slots=True)
 class _Sea:
     """What all runs have in common."""
 
-    waters: Waters
+    theatre: Theatre
     view: Outlook
     channel: Channel
     failures: float
@@ -222,10 +224,10 @@ class _Sea:
 
 
 def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool, gap: bool) -> RunResult:
-    problem, luck = sea.waters.problem, Luck(sea.waters.law, sea.seed, run)
+    problem, luck = sea.theatre.problem, Luck(sea.theatre.law, sea.seed, run)
     fails = failure_times(problem.budgets, sea.failures, sea.seed, run)
     if planner == "no-coordination" and not (log or gap):
-        return _run_alone(sea.waters, sea.view, plan, luck, fails)
+        return _run_alone(sea.theatre, sea.view, plan, luck, fails)
     voyage = Voyage(problem, luck, fails)
     crew = _crew(sea, voyage, plan, planner)
     voyage.sail(crew)
@@ -239,9 +241,9 @@ def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool, gap: bool) ->
         run,
         collected / (problem.total_profit or 1.0),
         tuple(arrivals),
-        _late(sea.waters, arrivals),
+        _late(sea.theatre, arrivals),
         len(nodes) - len(set(nodes)),
-        clairvoyant=_best(sea.waters, voyage) if gap else None,
+        clairvoyant=_best(sea.theatre, voyage) if gap else None,
         events=tuple(voyage.log) if log else (),
     )
     if isinstance(crew, FiveTier):
@@ -251,13 +253,13 @@ def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool, gap: bool) ->
     return result
 
 
-def _best(waters: Waters, voyage: Voyage) -> float:
+def _best(theatre: Theatre, voyage: Voyage) -> float:
     """Completion rate of the clairvoyant plan."""
     routes: list[list[int]] = [[] for _ in voyage.vessels]
     for event in voyage.log:
         if event.kind == "collect" and event.node is not None:
             routes[event.auv].append(event.node)
-    real, plan = clairvoyant_plan(waters.problem, voyage.luck, Plan.of(routes))
+    real, plan = clairvoyant_plan(theatre.problem, voyage.luck, Plan.of(routes))
     return plan.objective(real) / (real.total_profit or 1.0)
 
 
@@ -269,7 +271,7 @@ def _crew(sea: _Sea, voyage: Voyage, plan: Plan, planner: str) -> Crew:
             sea.view,
             plan,
             channel=sea.channel,
-            points=sea.waters.points,
+            points=sea.theatre.points,
             rng=np.random.default_rng((sea.seed, voyage.luck.run, 2)),
             silence=SILENCE if sea.failures > 0.0 else math.inf,
         )
@@ -288,27 +290,27 @@ def failure_times(
 
 
 def _run_alone(
-    waters: Waters, view: Outlook, plan: Plan, luck: Luck, fails: tuple[float, ...]
+    theatre: Theatre, view: Outlook, plan: Plan, luck: Luck, fails: tuple[float, ...]
 ) -> RunResult:
     """Without coordination and without a log: every AUV in the kernel."""
-    problem, key = waters.problem, luck.key
+    problem, key = theatre.problem, luck.key
     collected, arrivals = 0.0, []
     for route, budget, fail in zip(plan.routes, problem.budgets.tolist(), fails, strict=True):
         stops = np.array([0, *route, problem.destination])
-        data, arrival = sail_alone(waters.law, key, view, stops, budget, fail)
+        data, arrival = sail_alone(theatre.law, key, view, stops, budget, fail)
         collected += data
         arrivals.append(arrival)
     completion = collected / (problem.total_profit or 1.0)
-    return RunResult(luck.run, completion, tuple(arrivals), _late(waters, arrivals))
+    return RunResult(luck.run, completion, tuple(arrivals), _late(theatre, arrivals))
 
 
-def _late(waters: Waters, arrivals: list[float]) -> int:
-    allowed = waters.problem.budgets * (1.0 + TIME_TOLERANCE)
+def _late(theatre: Theatre, arrivals: list[float]) -> int:
+    allowed = theatre.problem.budgets * (1.0 + TIME_TOLERANCE)
     return sum(allowed[m] < arrival < math.inf for m, arrival in enumerate(arrivals))
 
 
 def _check_options(
-    waters: Waters, plan: Plan, planner: str, runs: int, reserve: float, failures: float
+    theatre: Theatre, plan: Plan, planner: str, runs: int, reserve: float, failures: float
 ) -> None:
     if planner not in PLANNERS:
         raise InputError(
@@ -322,6 +324,6 @@ def _check_options(
         raise InputError("must be finite and not negative", field="reserve", value=reserve)
     if not 0.0 <= failures <= 1.0:
         raise InputError("a probability lies between 0 and 1", field="failures", value=failures)
-    wrong = [v for v in check(waters.problem, plan) if v.kind != "over_budget"]
+    wrong = [v for v in check(theatre.problem, plan) if v.kind != "over_budget"]
     if wrong:
         raise InputError("must be a plan of this mission", field="plan", value=wrong[0])

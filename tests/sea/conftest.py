@@ -6,14 +6,14 @@ import pytest
 from fiveroute.generate import generate
 from fiveroute.heuristics.fleet_search import fleet_search
 from fiveroute.plan import Plan
-from fiveroute.sea.waters import Waters
+from fiveroute.sea.theatre import Theatre
 
 
 @pytest.fixture(scope="session")
-def waters() -> Waters:
-    return Waters.of(generate(nodes=24, seed=3), 2)
+def theatre() -> Theatre:
+    return Theatre.of(generate(nodes=24, seed=3), 2)
 
 
 @pytest.fixture(scope="session")
-def plan(waters: Waters) -> Plan:
-    return fleet_search(waters.problem, rng=np.random.default_rng(1), iterations=4000)
+def plan(theatre: Theatre) -> Plan:
+    return fleet_search(theatre.problem, rng=np.random.default_rng(1), iterations=4000)

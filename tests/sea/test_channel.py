@@ -10,8 +10,8 @@ from fiveroute.errors import InputError
 from fiveroute.sea.channel import PRESETS, SOUND_SPEED, Bursts, Channel, Radio
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.messages import Accept, Bid, Call, Message, Report, Wish
+from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Voyage
-from fiveroute.sea.waters import Waters
 
 
 @dataclass(slots=True)
@@ -37,50 +37,50 @@ class Stay:
         pass
 
 
-def fleet(waters: Waters, channel: Channel, ears: Ears, size: int = 3) -> tuple[Voyage, Radio]:
-    problem = waters.problem.with_budgets([18_000.0] * size)
-    voyage = Voyage(problem, Luck(waters.law, 1, 0), (math.inf,) * size)
-    return voyage, Radio(voyage, channel, waters.points, np.random.default_rng(3), ears)
+def fleet(theatre: Theatre, channel: Channel, ears: Ears, size: int = 3) -> tuple[Voyage, Radio]:
+    problem = theatre.problem.with_budgets([18_000.0] * size)
+    voyage = Voyage(problem, Luck(theatre.law, 1, 0), (math.inf,) * size)
+    return voyage, Radio(voyage, channel, theatre.points, np.random.default_rng(3), ears)
 
 
-def test_a_message_takes_its_bits_and_the_way_of_sound(waters: Waters) -> None:
+def test_a_message_takes_its_bits_and_the_way_of_sound(theatre: Theatre) -> None:
     ears = Ears()
-    voyage, radio = fleet(waters, Channel(bit_rate=100.0), ears)
+    voyage, radio = fleet(theatre, Channel(bit_rate=100.0), ears)
     radio.send(0.0, Accept(0, 2, 1, 5))
     voyage.vessels[2].at = voyage.vessels[2].target = 7
-    distance = np.hypot(*(waters.points[7] - waters.points[0]))
-    voyage.sail(Stay(waters.problem.destination))
+    distance = np.hypot(*(theatre.points[7] - theatre.points[0]))
+    voyage.sail(Stay(theatre.problem.destination))
     ((t, auv, message),) = ears.heard
     assert (auv, message) == (2, Accept(0, 2, 1, 5))
     assert t == pytest.approx(68.0 / 100.0 + distance / SOUND_SPEED)
 
 
-def test_everybody_hears_what_is_for_everybody_but_the_sender(waters: Waters) -> None:
+def test_everybody_hears_what_is_for_everybody_but_the_sender(theatre: Theatre) -> None:
     ears = Ears()
-    voyage, radio = fleet(waters, Channel(), ears)
+    voyage, radio = fleet(theatre, Channel(), ears)
     radio.send(0.0, Wish(1, None, frozenset({2})))
-    voyage.sail(Stay(waters.problem.destination))
+    voyage.sail(Stay(theatre.problem.destination))
     assert sorted(auv for _, auv, _ in ears.heard) == [0, 2]
     assert (radio.sent, radio.delivered) == (1, 2)
 
 
-def test_an_auv_sends_in_its_turns_only(waters: Waters) -> None:
-    voyage, radio = fleet(waters, Channel(), Ears())
+def test_an_auv_sends_in_its_turns_only(theatre: Theatre) -> None:
+    voyage, radio = fleet(theatre, Channel(), Ears())
     for auv in (2, 0, 0, 1):
         radio.send(0.0, Accept(auv, (auv + 1) % 3, 1, 5))
-    voyage.sail(Stay(waters.problem.destination))
+    voyage.sail(Stay(theatre.problem.destination))
     sent = [event for event in voyage.log if event.kind == "send"]
     assert [event.auv for event in sent] == [0, 1, 2, 0]
     turns = [0.0, radio.slot, 2.0 * radio.slot, radio.cycle]
     assert [event.t for event in sent] == pytest.approx(turns)
 
 
-def test_nobody_is_heard_out_of_reach(waters: Waters) -> None:
+def test_nobody_is_heard_out_of_reach(theatre: Theatre) -> None:
     ears = Ears()
-    voyage, radio = fleet(waters, Channel(reach=100.0), ears)
+    voyage, radio = fleet(theatre, Channel(reach=100.0), ears)
     voyage.vessels[2].at = voyage.vessels[2].target = 7
     radio.send(0.0, Wish(0, None, frozenset()))
-    voyage.sail(Stay(waters.problem.destination))
+    voyage.sail(Stay(theatre.problem.destination))
     assert [auv for _, auv, _ in ears.heard] == [1]
 
 
@@ -92,20 +92,20 @@ def test_nobody_is_heard_out_of_reach(waters: Waters) -> None:
         (Channel(bursts=Bursts(0.05, 0.25, 0.9)), 0.9 / 6.0),
     ],
 )
-def test_as_much_is_lost_as_stated(waters: Waters, channel: Channel, share: float) -> None:
-    _, radio = fleet(waters, channel, Ears())
+def test_as_much_is_lost_as_stated(theatre: Theatre, channel: Channel, share: float) -> None:
+    _, radio = fleet(theatre, channel, Ears())
     lost = np.array([radio._is_lost(0, 1) for _ in range(20_000)])
     assert lost.mean() == pytest.approx(share, abs=0.02)
     if channel.bursts is not None:
         assert lost[1:][lost[:-1]].mean() > 3.0 * lost.mean()
 
 
-def test_delays_may_reorder(waters: Waters) -> None:
+def test_delays_may_reorder(theatre: Theatre) -> None:
     ears = Ears()
-    voyage, radio = fleet(waters, Channel(jitter=300.0), ears)
+    voyage, radio = fleet(theatre, Channel(jitter=300.0), ears)
     for number in range(8):
         radio.send(0.0, Accept(0, 1, number, 5))
-    voyage.sail(Stay(waters.problem.destination))
+    voyage.sail(Stay(theatre.problem.destination))
     order = [m.transfer for _, _, m in ears.heard if isinstance(m, Accept)]
     assert sorted(order) == list(range(8)) != order
 

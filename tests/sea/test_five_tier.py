@@ -15,9 +15,9 @@ from fiveroute.sea.events import Kind
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.five_tier import FiveTier, first_keepers
 from fiveroute.sea.simulation import failure_times, simulate_fleet
+from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Voyage
 from fiveroute.sea.watch import SILENCE
-from fiveroute.sea.waters import Waters
 
 
 @dataclass(slots=True)
@@ -51,8 +51,8 @@ def faulty_mission(seed: int, failures: float) -> tuple[WatchedVoyage, FiveTier]
     """A random small mission over a random bad channel, sailed to its end."""
     rng = np.random.default_rng(seed)
     n, fleet = int(rng.integers(1, 20)), int(rng.integers(1, 6))
-    waters = Waters.of(generate(nodes=n, seed=seed, fleet_size=fleet))
-    problem = waters.problem.with_budgets(rng.uniform(5000.0, 20_000.0, size=fleet))
+    theatre = Theatre.of(generate(nodes=n, seed=seed, fleet_size=fleet))
+    problem = theatre.problem.with_budgets(rng.uniform(5000.0, 20_000.0, size=fleet))
     order = (rng.permutation(n) + 1).tolist()
     cuts = sorted(rng.integers(0, n // 2 + 1, size=fleet).tolist())
     plan = Plan.of(order[a:b] for a, b in zip([0, *cuts[:-1]], cuts, strict=True))
@@ -63,15 +63,15 @@ def faulty_mission(seed: int, failures: float) -> tuple[WatchedVoyage, FiveTier]
         bursts=Bursts() if rng.random() < 0.3 else None,
         jitter=float(rng.choice([0.0, 60.0, 300.0])),
     )
-    view = outlook(problem, waters.law, float(rng.choice([0.0, 1.645])))
+    view = outlook(problem, theatre.law, float(rng.choice([0.0, 1.645])))
     fails = failure_times(problem.budgets, failures, seed, 0)
-    voyage = WatchedVoyage(problem, Luck(waters.law, seed, 0), fails)
+    voyage = WatchedVoyage(problem, Luck(theatre.law, seed, 0), fails)
     crew = FiveTier(
         voyage,
         view,
         plan,
         channel=channel,
-        points=waters.points,
+        points=theatre.points,
         rng=rng,
         silence=SILENCE if failures else math.inf,
     )
@@ -110,13 +110,13 @@ def test_whoever_fails_a_double_collection_follows_a_false_belief() -> None:
 
 def test_over_a_perfect_channel_every_node_stays_with_somebody() -> None:
     for seed in range(50):
-        waters = Waters.of(generate(nodes=12, seed=seed, fleet_size=3))
-        problem = waters.problem.with_budgets([9000.0] * 3)
+        theatre = Theatre.of(generate(nodes=12, seed=seed, fleet_size=3))
+        problem = theatre.problem.with_budgets([9000.0] * 3)
         plan = Plan.of([range(1, 5), range(5, 9), ()])
-        view = outlook(problem, waters.law, 1.645)
-        voyage = Voyage(problem, Luck(waters.law, seed, 0), (math.inf,) * 3)
+        view = outlook(problem, theatre.law, 1.645)
+        voyage = Voyage(problem, Luck(theatre.law, seed, 0), (math.inf,) * 3)
         rng = np.random.default_rng(0)
-        crew = FiveTier(voyage, view, plan, channel=Channel(), points=waters.points, rng=rng)
+        crew = FiveTier(voyage, view, plan, channel=Channel(), points=theatre.points, rng=rng)
         voyage.sail(crew)
         assert_one_right_a_node(crew)
         known = frozenset[int]().union(*(a.holdings.mine | a.holdings.done for a in crew.agents))
@@ -124,15 +124,15 @@ def test_over_a_perfect_channel_every_node_stays_with_somebody() -> None:
         assert not any(a.holdings.ceded or a.holdings.pledged for a in crew.agents)
 
 
-def test_a_failed_teammate_is_replaced(waters: Waters) -> None:
+def test_a_failed_teammate_is_replaced(theatre: Theatre) -> None:
     """AUV 0 fails at once; what it had is suspected, taken over, and partly collected."""
     instance = generate(nodes=24, seed=3)
     problem = instance.problem(2).with_budgets([30_000.0, 30_000.0])
     plan = Plan.of([range(1, 13), range(13, 19)])
-    view = outlook(problem, waters.law, 1.645)
-    voyage = Voyage(problem, Luck(waters.law, 1, 0), (10.0, math.inf))
+    view = outlook(problem, theatre.law, 1.645)
+    voyage = Voyage(problem, Luck(theatre.law, 1, 0), (10.0, math.inf))
     rng = np.random.default_rng(0)
-    crew = FiveTier(voyage, view, plan, channel=Channel(), points=waters.points, rng=rng)
+    crew = FiveTier(voyage, view, plan, channel=Channel(), points=theatre.points, rng=rng)
     voyage.sail(crew)
     assert crew.takeovers > 0
     assert crew.false_takeovers == 0
@@ -141,9 +141,9 @@ def test_a_failed_teammate_is_replaced(waters: Waters) -> None:
     assert all(e.t > SILENCE for e in voyage.log if e.kind == "collect" and e.node in inherited)
 
 
-def test_coordination_collects_more_than_none(waters: Waters, plan: Plan) -> None:
+def test_coordination_collects_more_than_none(theatre: Theatre, plan: Plan) -> None:
     alone, together, deaf = (
-        simulate_fleet(waters, plan, planner=planner, runs=60, loss=loss)
+        simulate_fleet(theatre, plan, planner=planner, runs=60, loss=loss)
         for planner, loss in (("no-coordination", 0.0), ("five-tier", 0.0), ("five-tier", 1.0))
     )
     assert together.completions.mean() > alone.completions.mean() + 0.01
@@ -152,8 +152,8 @@ def test_coordination_collects_more_than_none(waters: Waters, plan: Plan) -> Non
 
 
 @pytest.mark.parametrize("idle", [0, 5])
-def test_first_keepers_share_out_what_the_plan_leaves(waters: Waters, idle: int) -> None:
+def test_first_keepers_share_out_what_the_plan_leaves(theatre: Theatre, idle: int) -> None:
     plan = Plan.of([range(1 + idle, 12), range(12, 25)])
-    keepers = first_keepers(waters.problem, plan)
+    keepers = first_keepers(theatre.problem, plan)
     assert sorted(keepers) == list(range(1, 1 + idle))
     assert set(keepers.values()) <= {0, 1}

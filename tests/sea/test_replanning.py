@@ -10,12 +10,12 @@ from fiveroute.generate import generate
 from fiveroute.sea.course import Course, Outlook, in_hand, outlook
 from fiveroute.sea.discarding import discard
 from fiveroute.sea.replanning import replan
-from fiveroute.sea.waters import Waters
+from fiveroute.sea.theatre import Theatre
 
 
 def view_of(nodes: int, seed: int, reserve: float) -> Outlook:
-    waters = Waters.of(generate(nodes=nodes, seed=seed, fleet_size=1))
-    return outlook(waters.problem, waters.law, reserve)
+    theatre = Theatre.of(generate(nodes=nodes, seed=seed, fleet_size=1))
+    return outlook(theatre.problem, theatre.law, reserve)
 
 
 def data(view: Outlook, course: Course) -> float:

@@ -13,14 +13,14 @@ from fiveroute.limits import Limits
 from fiveroute.plan import Plan
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.simulation import PLANNERS, RunResult, simulate_fleet
-from fiveroute.sea.waters import Waters
+from fiveroute.sea.theatre import Theatre
 
 every_planner = pytest.mark.parametrize("planner", sorted(PLANNERS))
 
 
 @pytest.mark.parametrize("planner", sorted({*PLANNERS} - {"rmmp"}))  # which plans anew
 def test_in_a_calm_sea_the_plan_is_what_happens(planner: str, plan: Plan) -> None:
-    calm = Waters.of(generate(nodes=24, seed=3), 2, uncertainty=Uncertainty(floor=1.0))
+    calm = Theatre.of(generate(nodes=24, seed=3), 2, uncertainty=Uncertainty(floor=1.0))
     result = simulate_fleet(calm, plan, planner=planner, runs=2, reserve=0.0)
     for run in result.runs:
         assert run.completion == pytest.approx(result.planned_completion)
@@ -29,42 +29,42 @@ def test_in_a_calm_sea_the_plan_is_what_happens(planner: str, plan: Plan) -> Non
 
 
 @every_planner
-def test_every_leg_takes_what_luck_says(planner: str, waters: Waters, plan: Plan) -> None:
-    run = simulate_fleet(waters, plan, planner=planner, runs=1, first_run=4, seed=9).runs[0]
-    legs = Luck(waters.law, 9, 4).matrix() + waters.problem.service
-    for auv in range(waters.problem.fleet_size):
+def test_every_leg_takes_what_luck_says(planner: str, theatre: Theatre, plan: Plan) -> None:
+    run = simulate_fleet(theatre, plan, planner=planner, runs=1, first_run=4, seed=9).runs[0]
+    legs = Luck(theatre.law, 9, 4).matrix() + theatre.problem.service
+    for auv in range(theatre.problem.fleet_size):
         at, t = 0, 0.0
         for event in run.events:
             if event.auv == auv and event.kind in ("collect", "arrive"):
-                node = waters.problem.destination if event.node is None else event.node
+                node = theatre.problem.destination if event.node is None else event.node
                 t += legs[at, node]
                 assert event.t == pytest.approx(t)
                 at = node
-        assert at == waters.problem.destination
+        assert at == theatre.problem.destination
         assert run.arrivals[auv] == pytest.approx(t)
 
 
 @every_planner
 def test_nothing_is_collected_twice_and_everybody_comes_home(
-    planner: str, waters: Waters, plan: Plan
+    planner: str, theatre: Theatre, plan: Plan
 ) -> None:
-    result = simulate_fleet(waters, plan, planner=planner, runs=60)
+    result = simulate_fleet(theatre, plan, planner=planner, runs=60)
     for run in result.runs:
         counts = Counter(event.node for event in run.events if event.kind == "collect")
         assert max(counts.values()) == 1
-        data = waters.problem.collected(sorted(node for node in counts if node is not None))
-        assert run.completion == pytest.approx(data / waters.problem.total_profit)
-        assert Counter(e.kind for e in run.events)["arrive"] == waters.problem.fleet_size
+        data = theatre.problem.collected(sorted(node for node in counts if node is not None))
+        assert run.completion == pytest.approx(data / theatre.problem.total_profit)
+        assert Counter(e.kind for e in run.events)["arrive"] == theatre.problem.fleet_size
         assert [event.t for event in run.events] == sorted(event.t for event in run.events)
     assert result.double_visits == 0
     assert result.late_returns <= 0.02 * 120
 
 
 @every_planner
-def test_a_seed_gives_one_answer(planner: str, waters: Waters, plan: Plan) -> None:
+def test_a_seed_gives_one_answer(planner: str, theatre: Theatre, plan: Plan) -> None:
     def runs(first: int, count: int, seed: int = 5) -> tuple[RunResult, ...]:
         return simulate_fleet(
-            waters, plan, planner=planner, runs=count, first_run=first, failures=0.3, seed=seed
+            theatre, plan, planner=planner, runs=count, first_run=first, failures=0.3, seed=seed
         ).runs
 
     together = runs(0, 6)
@@ -73,19 +73,19 @@ def test_a_seed_gives_one_answer(planner: str, waters: Waters, plan: Plan) -> No
     assert together != runs(0, 6, seed=6)
 
 
-def test_without_a_reserve_many_are_late(waters: Waters, plan: Plan) -> None:
+def test_without_a_reserve_many_are_late(theatre: Theatre, plan: Plan) -> None:
     late = [
-        simulate_fleet(waters, plan, planner="no-coordination", reserve=z, log=False, runs=400)
+        simulate_fleet(theatre, plan, planner="no-coordination", reserve=z, log=False, runs=400)
         for z in (0.0, 1.645)
     ]
     assert late[0].late_returns > 0.05 * 800
     assert late[1].late_returns <= 0.01 * 800
 
 
-def test_the_kernel_sails_as_the_log_says(waters: Waters, plan: Plan) -> None:
+def test_the_kernel_sails_as_the_log_says(theatre: Theatre, plan: Plan) -> None:
     told, counted = (
         simulate_fleet(
-            waters, plan, planner="no-coordination", runs=20, failures=0.3, log=log, seed=2
+            theatre, plan, planner="no-coordination", runs=20, failures=0.3, log=log, seed=2
         )
         for log in (True, False)
     )
@@ -95,8 +95,8 @@ def test_the_kernel_sails_as_the_log_says(waters: Waters, plan: Plan) -> None:
         assert not two.events
 
 
-def test_who_fails_does_not_arrive(waters: Waters, plan: Plan) -> None:
-    result = simulate_fleet(waters, plan, runs=30, failures=0.5)
+def test_who_fails_does_not_arrive(theatre: Theatre, plan: Plan) -> None:
+    result = simulate_fleet(theatre, plan, runs=30, failures=0.5)
     ends = Counter(e.kind for run in result.runs for e in run.events)
     assert ends["fail"] + ends["arrive"] == 60
     assert ends["fail"] > 10
@@ -106,8 +106,8 @@ def test_who_fails_does_not_arrive(waters: Waters, plan: Plan) -> None:
         assert all(e.t <= failed.get(e.auv, math.inf) for e in run.events)
 
 
-def test_it_stops_when_asked(waters: Waters, plan: Plan) -> None:
-    assert len(simulate_fleet(waters, plan, runs=50, limits=Limits(time=0.0)).runs) == 1
+def test_it_stops_when_asked(theatre: Theatre, plan: Plan) -> None:
+    assert len(simulate_fleet(theatre, plan, runs=50, limits=Limits(time=0.0)).runs) == 1
 
 
 @pytest.mark.parametrize(
@@ -121,9 +121,9 @@ def test_it_stops_when_asked(waters: Waters, plan: Plan) -> None:
     ],
 )
 def test_what_makes_no_sense_is_refused(
-    waters: Waters, plan: Plan, options: dict[str, float]
+    theatre: Theatre, plan: Plan, options: dict[str, float]
 ) -> None:
     with pytest.raises(InputError):
-        simulate_fleet(waters, plan, **options)  # type: ignore[arg-type]
+        simulate_fleet(theatre, plan, **options)  # type: ignore[arg-type]
     with pytest.raises(InputError, match="plan"):
-        simulate_fleet(waters, Plan(((1,), (1,))))
+        simulate_fleet(theatre, Plan(((1,), (1,))))

@@ -12,11 +12,11 @@ from fiveroute.instance import Instance, Uncertainty
 from fiveroute.problem import TeamOrienteering
 from fiveroute.tiers.actuation import LegLaw, leg_law
 
-__all__ = ["Waters"]
+__all__ = ["Theatre"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Waters:
+class Theatre:
     """A mission as the simulation sees it.
 
     Parameters
@@ -41,8 +41,8 @@ class Waters:
         *,
         travel: NDArray[np.float64] | None = None,
         uncertainty: Uncertainty | None = None,
-    ) -> Waters:
-        """The waters of an instance.
+    ) -> Theatre:
+        """The theatre of an instance.
 
         Parameters
         ----------

@@ -1,0 +1,191 @@
+"""``fiveroute simulate``: a plan carried out in the uncertain ocean, again and again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from fiveroute.cli import options
+
+if TYPE_CHECKING:
+    from fiveroute.formats.plan_file import PlanFile
+    from fiveroute.paths.voyage import Voyage
+    from fiveroute.plan import Plan
+
+__all__ = ["command"]
+
+PLANNERS = ("five-tier", "no-coordination", "ftcmp", "rmmp", "of-one-mind", "own-pick-up")
+CHANNELS = ("unlimited", "fsk", "psk", "nanomodem", "bursty")
+
+
+@click.command("simulate")
+@options.instance
+@click.argument("plan", type=click.Path(path_type=Path), required=False)
+@click.option(
+    "--planner",
+    type=click.Choice(PLANNERS),
+    default="five-tier",
+    show_default=True,
+    help="Who steers: the five tiers with and without coordination, the paper's competitors, "
+    "perfect communication, or no auction.",
+)
+@options.fleet_size
+@click.option(
+    "--runs", type=click.IntRange(min=1), default=50, show_default=True, help="Oceans to sail in."
+)
+@options.seed
+@click.option(
+    "--slack",
+    type=click.FloatRange(min=1.0),
+    default=1.08,
+    show_default=True,
+    help="Factor by which leg times are inflated in planning, where no PLAN is given.",
+)
+@click.option(
+    "--reserve",
+    type=click.FloatRange(min=0.0),
+    default=1.645,
+    show_default=True,
+    metavar="Z",
+    help="Standard deviations of the remaining time kept in hand; 0 as in the paper.",
+)
+@click.option(
+    "--channel",
+    type=click.Choice(CHANNELS),
+    default="unlimited",
+    show_default=True,
+    help="Acoustic channel between the AUVs.",
+)
+@click.option(
+    "--loss", type=click.FloatRange(0.0, 1.0), metavar="P", help="Probability of losing a message."
+)
+@click.option(
+    "--failures",
+    type=click.FloatRange(0.0, 1.0),
+    default=0.0,
+    show_default=True,
+    metavar="P",
+    help="Probability that an AUV fails in mid-mission.",
+)
+@click.option("--gap", is_flag=True, help="Compare each run with a clairvoyant plan (slower).")
+@click.option(
+    "--workers",
+    type=click.IntRange(min=1),
+    default=1,
+    show_default=True,
+    metavar="W",
+    help="Processes; the numbers do not depend on them.",
+)
+@click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler to run on instead.")
+@options.time_limit
+@options.straight_lines
+@click.option(
+    "--events", type=click.Path(path_type=Path), help="Write every event to this JSON lines file."
+)
+@options.output("Write a row a run to this file, .parquet or .csv.")
+@options.force
+@options.json_output
+@click.pass_context
+def command(
+    ctx: click.Context,
+    instance: Path,
+    plan: Path | None,
+    planner: str,
+    fleet_size: int | None,
+    runs: int,
+    seed: int,
+    slack: float,
+    reserve: float,
+    channel: str,
+    loss: float | None,
+    failures: float,
+    gap: bool,
+    workers: int,
+    scheduler: str | None,
+    time_limit: float,
+    straight_lines: bool,
+    events: Path | None,
+    output: Path | None,
+    force: bool,
+    as_json: bool,
+) -> None:
+    """Carry PLAN out in the uncertain ocean of INSTANCE; without PLAN, plan first."""
+    from fiveroute.cli import answers
+    from fiveroute.cli.files import require_output
+    from fiveroute.cli.running import run
+    from fiveroute.cli.sailing import sail
+    from fiveroute.experiments.campaign import Campaign, sail_campaign
+    from fiveroute.experiments.run_table import event_lines, require_table, write_table
+    from fiveroute.formats import read_instance
+    from fiveroute.formats.files import write_text_atomically
+    from fiveroute.formats.plan_file import read_plan
+    from fiveroute.limits import Limits, ProgressCallback
+    from fiveroute.sea.channel import PRESETS
+    from fiveroute.sea.departure import departure_plan
+    from fiveroute.sea.simulation import SimulationResult
+    from fiveroute.sea.theatre import Theatre
+
+    for path in (events, output):
+        require_output(path, force)
+    if output is not None:
+        require_table(output)
+    mission = read_instance(instance)
+    filed = None if plan is None else read_plan(plan, mission)
+    chosen = {
+        "planner": planner,
+        "reserve": reserve,
+        "loss": loss,
+        "failures": failures,
+        "channel": PRESETS[channel],
+        "seed": seed,
+        "log": events is not None,
+        "gap": gap,
+    }
+
+    def work(limits: Limits, progress: ProgressCallback | None) -> tuple[Voyage, SimulationResult]:
+        clock = limits.start()
+        voyage = sail(
+            mission, instance, limits, straight_lines=straight_lines, seed=seed, progress=progress
+        )
+        routes = (
+            departure_plan(
+                voyage.instance,
+                planner,
+                fleet_size=fleet_size,
+                travel=voyage.travel,
+                slack=slack,
+                seed=seed,
+                limits=clock.rest(),
+                progress=progress,
+            )
+            if filed is None
+            else _routes(filed, voyage)
+        )
+        theatre = Theatre.of(voyage.instance, len(routes.routes), travel=voyage.travel)
+        campaign = Campaign(theatre, routes, runs, chosen)
+        return voyage, sail_campaign(
+            campaign, workers=workers, scheduler=scheduler, limits=clock.rest(), progress=progress
+        )
+
+    outcome = run(work, Limits(time_limit))
+    voyage, result = outcome.value
+    if events is not None:
+        write_text_atomically(events, event_lines(voyage.instance, result), force)
+    if output is not None:
+        write_table(result, output, force)
+    answer = answers.simulation_answer(voyage, result, seed)
+    if as_json:
+        answers.print_json(answer)
+    else:
+        answers.print_simulation(answer)
+    ctx.exit(130 if outcome.interrupted else 0)
+
+
+def _routes(filed: PlanFile, voyage: Voyage) -> Plan:
+    """The routes of a plan file over the nodes that can be reached."""
+    from fiveroute.plan import Plan
+
+    vertex = {node.id: k for k, node in enumerate(voyage.instance.nodes, start=1)}
+    return Plan.of([vertex[name] for name in route if name in vertex] for route in filed.routes)

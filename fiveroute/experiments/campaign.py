@@ -1,0 +1,140 @@
+"""Campaigns: many runs on many cores or machines, with the same numbers wherever they run.
+
+The runs of a simulation are split into chunks. Each run draws its luck from the seed and its own
+number, so that it does not matter who sails it, or in which order. On one machine joblib shares the
+chunks out, on a cluster Dask: a worker that dies takes nothing with it but time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Mapping
+from contextlib import closing
+from dataclasses import dataclass, replace
+from typing import Any
+
+from fiveroute.errors import InputError
+from fiveroute.limits import Limits, Progress, ProgressCallback
+from fiveroute.plan import Plan
+from fiveroute.sea.simulation import SimulationResult, simulate_fleet
+from fiveroute.sea.theatre import Theatre
+
+__all__ = ["Campaign", "sail_campaign"]
+
+Part = Callable[[int, int], SimulationResult]
+Chunks = list[tuple[int, int]]
+Share = Callable[[Part, Chunks], Generator[SimulationResult]]
+
+_CHUNKS_A_WORKER = 4
+"""So many that all workers end at about the same time, and progress is seen."""
+
+_ON_CLUSTER = 8
+"""Workers of a cluster that chunks are made for."""
+
+_PATIENCE = 10.0
+"""Seconds that a scheduler may take to answer."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Campaign:
+    """What is to be simulated.
+
+    Parameters
+    ----------
+    theatre, plan
+        The mission, and the routes with which the fleet sets out.
+    runs
+        Number of runs.
+    options
+        Further arguments of `simulate_fleet`.
+    """
+
+    theatre: Theatre
+    plan: Plan
+    runs: int
+    options: Mapping[str, Any]
+
+    def part(self, first: int, runs: int) -> SimulationResult:
+        """Some of the runs."""
+        return simulate_fleet(self.theatre, self.plan, runs=runs, first_run=first, **self.options)
+
+
+def sail_campaign(
+    campaign: Campaign,
+    *,
+    workers: int = 1,
+    scheduler: str | None = None,
+    limits: Limits | None = None,
+    progress: ProgressCallback | None = None,
+) -> SimulationResult:
+    """Simulate all runs; where the limits end it before, those that are done, one chunk at least.
+
+    Parameters
+    ----------
+    campaign
+        What is to be simulated.
+    workers
+        Processes on this machine.
+    scheduler
+        Address of a Dask scheduler, as ``tcp://host:8786``; None stays on this machine.
+    limits
+        When to stop.
+    progress
+        Told how many runs are done.
+    """
+    clock = (limits or Limits()).start()
+    chunks = _chunks(campaign.runs, workers if scheduler is None else _ON_CLUSTER)
+    share = _on_cluster(scheduler) if scheduler is not None else _on_machine(workers)
+    parts: list[SimulationResult] = []
+    with closing(share(campaign.part, chunks)) as results:
+        for part in results:
+            parts.append(part)
+            done = sum(len(part.runs) for part in parts)
+            if progress is not None:
+                message = f"run {done} of {campaign.runs}"
+                progress(Progress(clock.seconds, message=message))
+            if clock.expired:
+                break
+    runs = sorted((run for part in parts for run in part.runs), key=lambda run: run.run)
+    return replace(parts[0], runs=tuple(runs), seconds=clock.seconds)
+
+
+def _chunks(runs: int, workers: int) -> Chunks:
+    """First run and number of runs of every chunk."""
+    size = max(runs // (workers * _CHUNKS_A_WORKER), 1)
+    return [(first, min(size, runs - first)) for first in range(0, runs, size)]
+
+
+def _on_machine(workers: int) -> Share:
+    def share(part: Part, chunks: Chunks) -> Generator[SimulationResult]:
+        if workers == 1:
+            yield from (part(*chunk) for chunk in chunks)
+            return
+        from joblib import Parallel, delayed
+
+        pool = Parallel(n_jobs=workers, return_as="generator_unordered")
+        yield from pool(delayed(part)(*chunk) for chunk in chunks)
+
+    return share
+
+
+def _on_cluster(address: str) -> Share:
+    try:
+        from distributed import Client, as_completed
+    except ImportError:
+        raise InputError(
+            "needs Dask; install fiveroute[cluster]", field="scheduler", value=address
+        ) from None
+
+    def share(part: Part, chunks: Chunks) -> Generator[SimulationResult]:
+        try:
+            client = Client(address, timeout=_PATIENCE, set_as_default=False)
+        except (OSError, ValueError) as error:
+            raise InputError(
+                f"no Dask scheduler answers there ({error})", field="scheduler", value=address
+            ) from None
+        with client:
+            futures = [client.submit(part, *chunk, pure=False) for chunk in chunks]
+            for future in as_completed(futures):
+                yield future.result()
+
+    return share
