@@ -28,7 +28,8 @@ from fiveroute.ocean.current_grid import CurrentGrid
 from fiveroute.vehicle.dynamics import Vehicle
 from fiveroute.vehicle.guidance import Guidance
 from fiveroute.vehicle.obstacle_avoidance import Avoidance
-from fiveroute.vehicle.tracking import Outcome, SailedTrack, sail_track
+from fiveroute.vehicle.sailed_track import Outcome, SailedTrack
+from fiveroute.vehicle.tracking import sail_track
 
 __all__ = ["Estimate", "Fit", "SailedLegs", "fit_uncertainty", "sail_legs"]
 

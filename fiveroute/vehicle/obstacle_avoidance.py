@@ -48,7 +48,7 @@ _BACK = 14  # of them by which a deviation may shrink from ping to ping
 _TURN = 18  # of them in half a turn
 _ARC = math.radians(20.0)  # of a turning circle in one straight piece of the prediction
 _STRAIGHT = 3  # straight pieces of the prediction after the turn
-_ENOUGH = 0.2  # of the standoff, where there is no choice
+_ENOUGH = 0.4  # of the standoff, where there is no choice: fewer stop at 0.2, but some collide
 _LET = 0.1  # metres by which a vehicle within the standoff may approach still
 
 
@@ -179,7 +179,7 @@ def _last_resort(
     """Circle where that is safe; otherwise go where the echoes stay farthest away, if they do."""
     port = _circling(lookout, near, state, current, 1.0)
     starboard = _circling(lookout, near, state, current, -1.0)
-    enough = _ENOUGH * wanted
+    enough = min(_ENOUGH * lookout.standoff, wanted)
     if max(port, starboard) >= enough:
         return state.heading + (0.5 if port >= starboard else -0.5) * math.pi, False
     best, most = state.heading, -1.0

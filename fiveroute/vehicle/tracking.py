@@ -18,8 +18,6 @@ barrier ends there. What clearance the vehicle kept is computed from the track i
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
@@ -32,9 +30,10 @@ from fiveroute.ocean.current_grid import CurrentGrid, velocity
 from fiveroute.vehicle.dynamics import Motion, State, Vehicle, advance
 from fiveroute.vehicle.guidance import Guidance, Steering, adapted, desired_heading
 from fiveroute.vehicle.obstacle_avoidance import Avoidance, Lookout, Manoeuvre, avoid, nearby
+from fiveroute.vehicle.sailed_track import Outcome, SailedTrack, least_clearance
 from fiveroute.vehicle.sonar import land_of, listen
 
-__all__ = ["STEP", "Outcome", "SailedTrack", "least_clearance", "sail_track"]
+__all__ = ["STEP", "sail_track"]
 
 Floats = NDArray[np.float64]
 
@@ -45,21 +44,6 @@ _ECHOES = 512  # that are remembered
 _PROGRESS = 1.0  # metres that count as progress
 _SLOWEST = 20.0  # times what still water takes, after which a voyage is broken off
 _X, _Y, _HEADING, _ERROR, _MANOEUVRE = range(5)  # columns of the log
-
-
-class Outcome(IntEnum):
-    """How a voyage ended."""
-
-    ARRIVED = 0
-    """At the last waypoint."""
-    SWEPT = 1
-    """Given up: the current was too strong."""
-    BLOCKED = 2
-    """Given up, or stopped short of obstacles: no way past them was found."""
-    COLLIDED = 3
-    """Into a barrier."""
-    LATE = 4
-    """Out of time."""
 
 
 _ARRIVED, _SWEPT, _BLOCKED, _COLLIDED, _LATE = map(int, Outcome)
@@ -83,55 +67,6 @@ class _Place(NamedTuple):
     bearing: float
     error: float
     left: float
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class SailedTrack:
-    """What a vehicle did.
-
-    Parameters
-    ----------
-    outcome
-        How it ended.
-    times
-        In seconds, shape (k,), equally spaced.
-    positions
-        In metres, shape (k, 2).
-    headings
-        In radians anticlockwise from east, not wrapped, shape (k,).
-    cross_track
-        Distance in metres to port of the leg that was sailed, shape (k,).
-    manoeuvre
-        Number of the avoidance manoeuvre under way, counted from 1, or 0, shape (k,).
-    arrivals
-        When each waypoint was reached, in seconds; infinite if it was not.
-    least_clearance
-        Of the straight pieces between the positions, in metres.
-    """
-
-    outcome: Outcome
-    times: Floats
-    positions: Floats
-    headings: Floats
-    cross_track: Floats
-    manoeuvre: NDArray[np.int64]
-    arrivals: Floats
-    least_clearance: float
-
-    @property
-    def duration(self) -> float:
-        """Seconds from the first position to the last."""
-        return float(self.times[-1] - self.times[0])
-
-    @property
-    def manoeuvres(self) -> int:
-        """Number of avoidance manoeuvres."""
-        return int(self.manoeuvre.max())
-
-    @property
-    def manoeuvring(self) -> float:
-        """Seconds spent in avoidance manoeuvres."""
-        return float(np.diff(self.times)[self.manoeuvre[:-1] > 0].sum())
 
 
 def sail_track(
@@ -243,24 +178,6 @@ def _checked(track: ArrayLike, times: dict[str, float]) -> Floats:
         if not seconds > 0.0:
             raise InputError("must be positive, in seconds", field=name, value=seconds)
     return points
-
-
-@kernel
-def least_clearance(barriers: Barriers, positions: Floats) -> float:
-    """Least clearance in metres of the straight pieces between positions, shape (k, 2).
-
-    A piece is left out only where the clearance that was last computed, less the way since, shows
-    that it cannot be the least.
-    """
-    x, y = positions[0]
-    known = least = clearance(barriers, x, y)
-    for k in range(1, len(positions)):
-        x0, y0, x, y = x, y, positions[k, 0], positions[k, 1]
-        known -= math.hypot(x - x0, y - y0)
-        if known <= least:
-            least = min(least, leg_clearance(barriers, x0, y0, x, y))
-            known = clearance(barriers, x, y)
-    return least
 
 
 @kernel

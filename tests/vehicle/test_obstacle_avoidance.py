@@ -17,7 +17,8 @@ from fiveroute.ocean.barriers import Barriers, clearance, leg_clearance, no_barr
 from fiveroute.ocean.current_grid import CurrentGrid
 from fiveroute.vehicle.dynamics import Vehicle
 from fiveroute.vehicle.obstacle_avoidance import Avoidance
-from fiveroute.vehicle.tracking import Outcome, SailedTrack, sail_track
+from fiveroute.vehicle.sailed_track import Outcome, SailedTrack
+from fiveroute.vehicle.tracking import sail_track
 
 Floats = NDArray[np.float64]
 Water = Callable[[float, float], CurrentGrid]
@@ -90,23 +91,33 @@ def test_a_pocket_is_left_again(water: Water) -> None:
     assert proven_clearance(pocket, sailed) > 2.0
 
 
+def test_an_island_of_a_land_mask_is_passed(water: Water) -> None:
+    x, y = np.meshgrid(np.arange(0.0, 1001.0, 50.0), np.arange(-500.0, 501.0, 50.0))
+    island = no_barriers()._replace(
+        land=np.hypot(x - 500.0, y - 30.0) - 150.0, land_south=-500.0, land_step=50.0
+    )
+    sailed = sail_track(water(0.0, 0.3), LEG, SLOW, barriers=island)
+    assert sailed.outcome is Outcome.ARRIVED
+    assert proven_clearance(island, sailed) > 3.0
+
+
 def test_many_random_discs_are_passed_without_contact(water: Water) -> None:
     outcomes: Counter[Outcome] = Counter()
-    for seed in range(200):
+    for seed in range(120):
         rng = np.random.default_rng(seed)
-        waters, towards, pace = random_discs(rng), rng.uniform(0.0, 2.0 * math.pi), 0.5
-        pace *= rng.uniform()
+        waters = random_discs(rng)
+        towards, pace = rng.uniform(0.0, 2.0 * math.pi), rng.uniform(0.0, 0.5)
         grid = water(pace * math.cos(towards), pace * math.sin(towards))
         sailed = sail_track(grid, LEG, SLOW, barriers=waters)
         outcomes[sailed.outcome] += 1
         assert proven_clearance(waters, sailed) > 0.0
-    assert outcomes[Outcome.ARRIVED] >= 196
-    assert outcomes[Outcome.ARRIVED] + outcomes[Outcome.BLOCKED] == 200
+    assert outcomes[Outcome.ARRIVED] >= 117
+    assert outcomes[Outcome.ARRIVED] + outcomes[Outcome.BLOCKED] == 120
 
 
 def test_who_arrives_past_spikes_and_pockets_has_touched_none(water: Water) -> None:
     arrived = collided = total = 0
-    for seed in range(150):
+    for seed in range(80):
         rng = np.random.default_rng(seed)
         waters = spiked(rng)
         if min(clearance(waters, x, y) for x, y in LEG) < 40.0:

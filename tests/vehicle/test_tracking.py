@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from fiveroute.errors import InputError
-from fiveroute.ocean.barriers import Barriers, leg_clearance, no_barriers
 from fiveroute.ocean.current_grid import CurrentGrid
 from fiveroute.vehicle.dynamics import Vehicle
 from fiveroute.vehicle.guidance import Guidance
-from fiveroute.vehicle.tracking import Outcome, least_clearance, sail_track
+from fiveroute.vehicle.sailed_track import Outcome
+from fiveroute.vehicle.tracking import sail_track
 
 Water = Callable[[float, float], CurrentGrid]
 LEG = np.array([[0.0, 0.0], [1000.0, 0.0]])
@@ -95,17 +95,6 @@ def test_the_time_does_not_depend_on_the_step(water: Water) -> None:
     fine = sail_track(water(0.1, 0.3), LEG, SLOW, step=0.1)
     assert coarse.duration == pytest.approx(fine.duration, abs=1.0)
     assert coarse.positions[1000] == pytest.approx(fine.positions[5000], abs=0.3)
-
-
-def test_the_least_clearance_is_that_of_all_pieces() -> None:
-    rng = np.random.default_rng(5)
-    circles = np.column_stack([rng.uniform(-50.0, 50.0, (9, 2)), rng.uniform(1.0, 9.0, 9)])
-    waters: Barriers = no_barriers()._replace(circles=circles)
-    for _ in range(20):
-        walk = np.cumsum(rng.normal(0.0, 3.0, (300, 2)), axis=0)
-        pieces = [leg_clearance(waters, *walk[k], *walk[k + 1]) for k in range(299)]
-        least = least_clearance(waters, walk)
-        assert least == pytest.approx(min(pieces), abs=1e-9) or max(least, min(pieces)) < 0.0
 
 
 @pytest.mark.parametrize("track", [[(0.0, 0.0)], [0.0, 1.0], [(0.0, 0.0), (math.nan, 1.0)]])
