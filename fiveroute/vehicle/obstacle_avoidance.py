@@ -148,7 +148,7 @@ def avoid(
     t: float,
 ) -> Manoeuvre:
     """What to do about the echoes at hand, shape (k, 2), with the desired heading not wrapped."""
-    wanted = min(lookout.standoff, _nearest(near, state) - _LET)
+    wanted = max(min(lookout.standoff, _nearest(near, state) - _LET), 0.0)
     side = manoeuvre.side
     if side == 0.0:
         if _distance(lookout, near, state, current, desired, wanted) >= wanted:
@@ -228,9 +228,9 @@ def _distance(
     heading: float,
     wanted: float,
 ) -> float:
-    """Least distance to the echoes on the way to and on a heading, exact if it is `wanted`.
+    """Least distance to the echoes on the way to a heading and on it.
 
-    It is -1 if nowhere on the way there is room to turn round.
+    It is exact where it is at least `wanted`, and -1 if there is nowhere room to turn round.
     """
     x, y, angle = state.x, state.y, state.heading
     least, turn, room = math.inf, heading - state.heading, wanted < 0.0

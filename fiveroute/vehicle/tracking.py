@@ -44,8 +44,6 @@ _ECHOES = 512  # that are remembered
 _PROGRESS = 1.0  # metres that count as progress
 _SLOWEST = 20.0  # times what still water takes, after which a voyage is broken off
 _X, _Y, _HEADING, _ERROR, _MANOEUVRE = range(5)  # columns of the log
-
-
 _ARRIVED, _SWEPT, _BLOCKED, _COLLIDED, _LATE = map(int, Outcome)
 
 
@@ -116,7 +114,8 @@ def sail_track(
     step
         Seconds in one step.
     """
-    points = _checked(track, {"step": step, "patience": patience, "longest": longest})
+    points = _checked_track(track)
+    _require_positive(step=step, patience=patience, longest=longest, switch=switch, reach=reach)
     barriers = _without_edge(barriers or no_barriers())
     pieces = np.hypot(*np.diff(points, axis=0).T)
     left = np.append(np.cumsum(pieces[::-1])[::-1], 0.0)
@@ -168,16 +167,19 @@ def _without_edge(barriers: Barriers) -> Barriers:
     return barriers._replace(west=-infinite, south=-infinite, east=infinite, north=infinite)
 
 
-def _checked(track: ArrayLike, times: dict[str, float]) -> Floats:
+def _checked_track(track: ArrayLike) -> Floats:
     points = np.array(track, dtype=np.float64)
     if points.ndim != 2 or points.shape[1:] != (2,) or len(points) < 2:
         raise InputError("takes two waypoints at least, (k, 2)", field="track", value=points.shape)
     if not np.isfinite(points).all():
         raise InputError("all waypoints must be finite", field="track")
-    for name, seconds in times.items():
-        if not seconds > 0.0:
-            raise InputError("must be positive, in seconds", field=name, value=seconds)
     return points
+
+
+def _require_positive(**values: float) -> None:
+    for name, value in values.items():
+        if not value > 0.0:
+            raise InputError("must be positive", field=name, value=value)
 
 
 @kernel

@@ -127,7 +127,7 @@ def test_who_arrives_past_spikes_and_pockets_has_touched_none(water: Water) -> N
         assert touched == (sailed.outcome is Outcome.COLLIDED)
         total, arrived = total + 1, arrived + (sailed.outcome is Outcome.ARRIVED)
         collided += touched
-    assert arrived > 0.9 * total
+    assert arrived > 0.85 * total
     assert collided < 0.02 * total
 
 

@@ -103,7 +103,7 @@ def test_a_bad_track_is_refused(track: list[tuple[float, float]], water: Water) 
         sail_track(water(0.0, 0.0), track, SLOW)
 
 
-@pytest.mark.parametrize("name", ["step", "patience", "longest"])
-def test_times_must_be_positive(name: str, water: Water) -> None:
+@pytest.mark.parametrize("name", ["step", "patience", "longest", "switch", "reach"])
+def test_numbers_must_be_positive(name: str, water: Water) -> None:
     with pytest.raises(InputError, match=name):
         sail_track(water(0.0, 0.0), LEG, SLOW, **{name: 0.0})  # type: ignore[arg-type]
