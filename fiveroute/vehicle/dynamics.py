@@ -12,10 +12,12 @@ and the rudder angle delta, positive where it turns the vehicle to port,
 
 Surge and sway are those of Prestero's model of the REMUS, without the terms that are of second
 order in slow sway; the thrust X is constant and balances the drag at the vehicle's speed. Yaw is
-Nomoto's equation of first order, its gain k u and its time l / u scaled with the speed as usual:
-Prestero's own yaw moment leaves out what his measurements show and Fossen's model assumes too,
-that the fins outweigh the unstable (Munk) moment of the hull. The water's acceleration is
-neglected against the vehicle's, as for every model in relative velocity.
+Nomoto's equation of first order, its gain k u and its time l / u scaled with the speed as usual,
+fitted to the turns of Fossen's REMUS 100. The sources differ here: Prestero's yaw moment holds the
+unstable (Munk) moment of the hull, which his fins do not outweigh (without a rudder the motion has
+an eigenvalue of +0.66 u per metre), and turns at 15 degrees of rudder on 6 m; Fossen leaves that
+moment out, and turns on 20 m. The water's acceleration is neglected against the vehicle's, as in
+every model in relative velocity.
 
 Every force is of second order in the velocities, so that a steady turn has a closed form: with the
 rudder held the path's curvature is about k delta, that is
