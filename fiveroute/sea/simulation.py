@@ -305,7 +305,7 @@ def _run_alone(
 
 
 def _late(theatre: Theatre, arrivals: list[float]) -> int:
-    allowed = theatre.problem.budgets * (1.0 + TIME_TOLERANCE)
+    allowed = (theatre.problem.budgets * (1.0 + TIME_TOLERANCE)).tolist()
     return sum(allowed[m] < arrival < math.inf for m, arrival in enumerate(arrivals))
 
 
