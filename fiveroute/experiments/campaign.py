@@ -134,7 +134,7 @@ def _on_cluster(address: str) -> Share:
             ) from None
         with client:
             futures = [client.submit(part, *chunk, pure=False) for chunk in chunks]
-            for future in as_completed(futures):
+            for future in as_completed(futures, loop=client.loop):
                 yield future.result()
 
     return share

@@ -1,0 +1,81 @@
+"""Simulation on the command line."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+KEYS = {
+    "instance",
+    "planner",
+    "runs",
+    "fleet_size",
+    "completion",
+    "planned_completion",
+    "late_returns",
+    "double_visits",
+    "messages",
+    "seconds",
+}
+
+
+@pytest.mark.parametrize("planner", ["five-tier", "no-coordination", "ftcmp", "rmmp"])
+def test_the_promised_keys(call: Any, tiny: Path, planner: str) -> None:
+    answer = call("simulate", tiny, "--planner", planner, "--runs", 5, "--json")
+    assert answer.code == 0
+    assert set(answer.doc) >= KEYS
+    assert set(answer.doc["completion"]) == {"mean", "std", "min", "p25", "median", "p75", "max"}
+    assert answer.doc["completion"]["max"] <= 1.0
+
+
+def test_a_filed_plan_is_carried_out(call: Any, tiny: Path, tmp_path: Path) -> None:
+    plan, log = tmp_path / "plan.json", tmp_path / "events.jsonl"
+    call("plan", tiny, "--output", plan)
+    answer = call(
+        "simulate", tiny, plan, "--runs", 4, "--reserve", 0, "--events", log, "--gap", "--json"
+    )
+    assert answer.code == 0
+    planned = json.loads(plan.read_text())["objective"] / 1.75
+    assert answer.doc["planned_completion"] == pytest.approx(planned)
+    assert answer.doc["online_gap"] >= -1e-9
+    events = [json.loads(line) for line in log.read_text().splitlines()]
+    assert {event["run"] for event in events} == set(range(4))
+    collected = sum(
+        {"a": 0.5, "b": 0.25, "far": 1.0}[event["node"]]
+        for event in events
+        if event["kind"] == "collect"
+    )
+    assert answer.doc["completion"]["mean"] == pytest.approx(collected / 4 / 1.75)
+
+
+def test_the_same_seed_gives_the_same_numbers(call: Any, tiny: Path, tmp_path: Path) -> None:
+    tables = []
+    for workers in (1, 2):
+        table = tmp_path / f"{workers}.csv"
+        call("simulate", tiny, "--runs", 8, "--workers", workers, "--output", table)
+        tables.append(table.read_text())
+    assert tables[0] == tables[1]
+
+
+def test_a_short_answer_for_people(call: Any, tiny: Path) -> None:
+    answer = call("simulate", tiny, "--runs", 3)
+    assert answer.code == 0
+    assert "tiny: 3 runs of 1 AUVs, five-tier" in answer.out
+    assert "late returns" in answer.out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--output", "runs.xlsx"), "ends in .parquet or .csv"),
+        (("--planner", "nobody"), "nobody"),
+        (("--loss", "2"), "2"),
+    ],
+)
+def test_bad_calls(call: Any, tiny: Path, arguments: tuple[str, str], message: str) -> None:
+    answer = call("simulate", tiny, *arguments)
+    assert answer.code == 2
+    assert message in answer.err
