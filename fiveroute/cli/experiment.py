@@ -69,3 +69,84 @@ def preplanning(
     else:
         click.echo(report(outcome.value), nl=False)
     ctx.exit(130 if outcome.interrupted else 0)
+
+
+@command.command("stochastic")
+@click.option(
+    "--scenarios",
+    type=click.IntRange(min=1),
+    default=20,
+    show_default=True,
+    help="Number of scenarios.",
+)
+@click.option(
+    "--runs", type=click.IntRange(min=1), default=50, show_default=True, help="Oceans a scenario."
+)
+@click.option(
+    "--reserve",
+    type=click.FloatRange(min=0.0),
+    default=1.645,
+    show_default=True,
+    metavar="Z",
+    help="Standard deviations of the remaining time kept in hand; 0 as in the paper.",
+)
+@click.option(
+    "--workers",
+    type=click.IntRange(min=1),
+    default=1,
+    show_default=True,
+    metavar="W",
+    help="Processes; the numbers do not depend on them.",
+)
+@options.seed
+@options.output("Folder for report, tables and pictures; what is done is kept there as it is done.")
+@options.force
+@options.json_output
+@click.pass_context
+def stochastic(
+    ctx: click.Context,
+    scenarios: int,
+    runs: int,
+    reserve: float,
+    workers: int,
+    seed: int,
+    output: Path | None,
+    force: bool,
+    as_json: bool,
+) -> None:
+    """Section IV-C and D: the five-tiered planner against FTCMP and RMMP, with and without tier 5.
+
+    With --output, a campaign that was killed goes on where it was.
+    """
+    from fiveroute.cli import answers
+    from fiveroute.cli.files import require_folder
+    from fiveroute.cli.running import run
+    from fiveroute.experiments.stochastic import Outcome, cells_of, sail_cells
+    from fiveroute.experiments.stochastic_report import FILES, report, summary, write_report
+    from fiveroute.limits import Limits, Progress, ProgressCallback
+
+    require_folder(output, FILES, force)
+    cells = cells_of(scenarios, runs, seed=seed, reserve=reserve)
+
+    def work(limits: Limits, progress: ProgressCallback | None) -> list[Outcome]:
+        clock, done = limits.start(), []
+        folder = None if output is None else output / "cells"
+        for outcome in sail_cells(cells, folder, workers=workers):
+            done.append(outcome)
+            if progress is not None:
+                message = f"{len(done)} of {len(cells)} planners and scenarios"
+                progress(Progress(clock.seconds, message=message))
+            if clock.interrupted:
+                break
+        return done
+
+    outcome = run(work, Limits())
+    if outcome.interrupted:
+        click.echo("fiveroute: interrupted; the same call with --output goes on", err=True)
+        ctx.exit(130)
+    if output is not None:
+        write_report(outcome.value, output, force)
+    if as_json:
+        answers.print_json(summary(outcome.value))
+    else:
+        click.echo(report(outcome.value), nl=False)

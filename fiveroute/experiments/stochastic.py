@@ -1,0 +1,224 @@
+"""The paper's Section IV-C and D: fleets in an uncertain ocean, planner against planner.
+
+On every scenario tier 1 estimates the number of AUVs M. The five-tiered planner sails with M; the
+planners that the paper compares with sail with M (equal fleets) and with 4. Every planner meets the
+same luck: the real leg times, equation (12), depend on scenario, run and leg alone. Legs are straight
+lines in still water, because (12) already stands for the current.
+
+A cell is one planner with one fleet on one scenario. Cells are kept as files as soon as they are
+done, each under a key of all that it depends on: a campaign that is killed at any moment goes on
+where it was.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Generator, Iterable, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import fiveroute
+from fiveroute.formats.files import write_text_atomically
+from fiveroute.generate import paper_scenario
+from fiveroute.kernels import source_digest
+from fiveroute.sea.departure import departure_plan
+from fiveroute.sea.simulation import simulate_fleet
+from fiveroute.sea.theatre import Theatre
+from fiveroute.tiers.preplanning import preplan
+
+__all__ = ["COMPETITORS", "FIXED_FLEET", "Cell", "Outcome", "cells_of", "sail_cell", "sail_cells"]
+
+COMPETITORS = ("ftcmp", "rmmp")
+"""The planners that the paper compares with."""
+
+FIXED_FLEET = 4
+"""AUVs that they have in the paper's first comparison, (33)."""
+
+_PLANNERS = ("five-tier", "no-coordination", *COMPETITORS)
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """One planner with one fleet on one scenario.
+
+    Parameters
+    ----------
+    scenario
+        Number of the paper scenario.
+    planner
+        Who steers.
+    fleet_size
+        Number of AUVs; None for the estimate of tier 1.
+    runs
+        Number of oceans.
+    seed
+        Seed of plans and luck.
+    reserve
+        Standard deviations of the remaining time kept in hand.
+    gap
+        Whether every run is compared with a clairvoyant plan.
+    """
+
+    scenario: int
+    planner: str
+    fleet_size: int | None
+    runs: int
+    seed: int = 0
+    reserve: float = 1.645
+    gap: bool = False
+
+    @property
+    def key(self) -> str:
+        """Names what the outcome depends on: the cell, and the source that it is computed by."""
+        source = source_digest(__name__)
+        text = json.dumps({**asdict(self), "source": source, "version": fiveroute.__version__})
+        return hashlib.sha256(text.encode()).hexdigest()[:24]
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What became of a cell.
+
+    Parameters
+    ----------
+    cell
+        The cell.
+    fleet_size
+        AUVs that sailed.
+    planned
+        Completion rate of the plan.
+    completions
+        Completion rate of every run.
+    clairvoyant
+        Completion rate of the clairvoyant plan of every run; empty where not asked for.
+    late_returns, double_visits
+        Over all runs.
+    """
+
+    cell: Cell
+    fleet_size: int
+    planned: float
+    completions: tuple[float, ...]
+    clairvoyant: tuple[float, ...]
+    late_returns: int
+    double_visits: int
+
+    @property
+    def mean(self) -> float:
+        """Mean completion rate."""
+        return float(np.mean(self.completions))
+
+    @property
+    def online_gap(self) -> float | None:
+        """Mean of (clairvoyant - completion) / clairvoyant."""
+        if not self.clairvoyant:
+            return None
+        best, got = np.array(self.clairvoyant), np.array(self.completions)
+        return float(np.mean((best - got) / np.maximum(best, 1e-12)))
+
+
+def cells_of(scenarios: int, runs: int, *, seed: int = 0, reserve: float = 1.645) -> list[Cell]:
+    """All cells of the paper's comparisons, scenario by scenario."""
+    cells = []
+    for scenario in range(1, scenarios + 1):
+        cells += [
+            Cell(scenario, planner, None, runs, seed, reserve, planner not in COMPETITORS)
+            for planner in _PLANNERS
+        ]
+        cells += [
+            Cell(scenario, planner, FIXED_FLEET, runs, seed, reserve) for planner in COMPETITORS
+        ]
+    return cells
+
+
+def sail_cell(cell: Cell) -> Outcome:
+    """Plan, and sail all runs of a cell."""
+    instance = paper_scenario(cell.scenario)
+    fleet = cell.fleet_size
+    if fleet is None:
+        rng = np.random.default_rng((cell.seed, cell.scenario))
+        fleet = preplan(instance, rng=rng).problem.fleet_size
+    theatre = Theatre.of(instance, fleet)
+    plan = departure_plan(theatre, cell.planner, reserve=cell.reserve, seed=cell.seed)
+    result = simulate_fleet(
+        theatre,
+        plan,
+        planner=cell.planner,
+        runs=cell.runs,
+        reserve=cell.reserve,
+        seed=cell.seed * 1000 + cell.scenario,
+        log=False,
+        gap=cell.gap,
+    )
+    return Outcome(
+        cell,
+        fleet,
+        result.planned_completion,
+        tuple(result.completions.tolist()),
+        tuple(run.clairvoyant for run in result.runs if run.clairvoyant is not None),
+        result.late_returns,
+        result.double_visits,
+    )
+
+
+def sail_cells(
+    cells: Sequence[Cell], folder: Path | None = None, *, workers: int = 1
+) -> Generator[Outcome]:
+    """Outcomes of cells as they are done, those that the folder has first.
+
+    Parameters
+    ----------
+    cells
+        What is to be sailed.
+    folder
+        Where outcomes are kept; None keeps none.
+    workers
+        Processes.
+    """
+    missing = []
+    for cell in cells:
+        kept = None if folder is None else _kept(folder, cell)
+        if kept is None:
+            missing.append(cell)
+        else:
+            yield kept
+    for outcome in _sailed(missing, workers):
+        if folder is not None:
+            _keep(folder, outcome)
+        yield outcome
+
+
+def _sailed(cells: Sequence[Cell], workers: int) -> Iterable[Outcome]:
+    if workers == 1:
+        return map(sail_cell, cells)
+    from joblib import Parallel, delayed
+
+    pool = Parallel(n_jobs=workers, return_as="generator_unordered")
+    outcomes: Iterable[Outcome] = pool(delayed(sail_cell)(cell) for cell in cells)
+    return outcomes
+
+
+def _file(folder: Path, cell: Cell) -> Path:
+    fleet = "m" if cell.fleet_size is None else str(cell.fleet_size)
+    return folder / f"{cell.scenario:02d}-{cell.planner}-{fleet}-{cell.key}.json"
+
+
+def _keep(folder: Path, outcome: Outcome) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    text = json.dumps(asdict(outcome), allow_nan=False)
+    write_text_atomically(_file(folder, outcome.cell), text + "\n", force=True)
+
+
+def _kept(folder: Path, cell: Cell) -> Outcome | None:
+    """The outcome of a cell, if the folder has it whole."""
+    try:
+        document: dict[str, Any] = json.loads(_file(folder, cell).read_text(encoding="utf-8"))
+        rest = {name: document[name] for name in Outcome.__slots__ if name != "cell"}
+    except (OSError, ValueError, KeyError):
+        return None
+    rest |= {name: tuple(rest[name]) for name in ("completions", "clairvoyant")}
+    return Outcome(cell, **rest)
