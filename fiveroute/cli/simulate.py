@@ -16,7 +16,15 @@ if TYPE_CHECKING:
 
 __all__ = ["command"]
 
-PLANNERS = ("five-tier", "no-coordination", "ftcmp", "rmmp", "of-one-mind", "own-pick-up")
+PLANNERS = (
+    "five-tier",
+    "no-coordination",
+    "ftcmp",
+    "rmmp",
+    "of-one-mind",
+    "own-pick-up",
+    "to-the-letter",
+)
 CHANNELS = ("unlimited", "fsk", "psk", "nanomodem", "bursty")
 
 
@@ -36,13 +44,6 @@ CHANNELS = ("unlimited", "fsk", "psk", "nanomodem", "bursty")
     "--runs", type=click.IntRange(min=1), default=50, show_default=True, help="Oceans to sail in."
 )
 @options.seed
-@click.option(
-    "--slack",
-    type=click.FloatRange(min=1.0),
-    default=1.08,
-    show_default=True,
-    help="Factor by which leg times are inflated in planning, where no PLAN is given.",
-)
 @click.option(
     "--reserve",
     type=click.FloatRange(min=0.0),
@@ -96,7 +97,6 @@ def command(
     fleet_size: int | None,
     runs: int,
     seed: int,
-    slack: float,
     reserve: float,
     channel: str,
     loss: float | None,
@@ -149,21 +149,12 @@ def command(
         voyage = sail(
             mission, instance, limits, straight_lines=straight_lines, seed=seed, progress=progress
         )
-        routes = (
-            departure_plan(
-                voyage.instance,
-                planner,
-                fleet_size=fleet_size,
-                travel=voyage.travel,
-                slack=slack,
-                seed=seed,
-                limits=clock.rest(),
-                progress=progress,
-            )
-            if filed is None
-            else _routes(filed, voyage)
+        filed_routes = None if filed is None else _routes(filed, voyage)
+        size = len(filed_routes.routes) if filed_routes else fleet_size or _fleet(voyage, seed)
+        theatre = Theatre.of(voyage.instance, size, travel=voyage.travel)
+        routes = filed_routes or departure_plan(
+            theatre, planner, reserve=reserve, seed=seed, limits=clock.rest()
         )
-        theatre = Theatre.of(voyage.instance, len(routes.routes), travel=voyage.travel)
         campaign = Campaign(theatre, routes, runs, chosen)
         return voyage, sail_campaign(
             campaign, workers=workers, scheduler=scheduler, limits=clock.rest(), progress=progress
@@ -189,3 +180,16 @@ def _routes(filed: PlanFile, voyage: Voyage) -> Plan:
 
     vertex = {node.id: k for k, node in enumerate(voyage.instance.nodes, start=1)}
     return Plan.of([vertex[name] for name in route if name in vertex] for route in filed.routes)
+
+
+def _fleet(voyage: Voyage, seed: int) -> int:
+    """Number of AUVs of the instance, or else the estimate of tier 1."""
+    import numpy as np
+
+    from fiveroute.tiers.preplanning import preplan
+
+    stated = voyage.instance.fleet_size
+    if stated is not None:
+        return stated
+    rng = np.random.default_rng(seed)
+    return preplan(voyage.instance, travel=voyage.travel, rng=rng).problem.fleet_size

@@ -1,9 +1,9 @@
 """The paper's Section IV-C and D: fleets in an uncertain ocean, planner against planner.
 
-On every scenario tier 1 estimates the number of AUVs M. The five-tiered planner sails with M; the
-planners that the paper compares with sail with M (equal fleets) and with 4. Every planner meets the
-same luck: the real leg times, equation (12), depend on scenario, run and leg alone. Legs are straight
-lines in still water, because (12) already stands for the current.
+On every scenario tier 1 estimates the number of AUVs M. The five-tiered planner sails with M;
+the planners that the paper compares with sail with M (equal fleets) and with 4. Every planner
+meets the same luck: the real leg times, equation (12), depend on scenario, run and leg alone. Legs
+are straight lines in still water, because (12) already stands for the current.
 
 A cell is one planner with one fleet on one scenario. Cells are kept as files as soon as they are
 done, each under a key of all that it depends on: a campaign that is killed at any moment goes on

@@ -34,14 +34,11 @@ from fiveroute.sea.messages import (
     Wish,
 )
 from fiveroute.sea.picking import Offers, offers
-from fiveroute.sea.replanning import replan
+from fiveroute.sea.replanning import TRIALS, replan
 from fiveroute.sea.voyage import Voyage, course_of
 from fiveroute.sea.watch import Watch
 
-__all__ = ["BEAT", "TRIALS", "Agent"]
-
-TRIALS = 100
-"""Attempts to improve its course at every node."""
+__all__ = ["BEAT", "Agent"]
 
 BEAT = 900.0
 """Longest time in seconds from one report of an AUV to the next."""

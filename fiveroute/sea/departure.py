@@ -1,103 +1,184 @@
 """With which routes a fleet sets out, whoever is to steer it.
 
 A plan that is tight by planned times is too long on average, since manoeuvres only ever take
-time, and whatever does not fit is discarded under way, where it can no longer be replaced by
-something better. So planning costs are inflated: all legs by a factor, the slack. The planners that
-the paper compares with plan by the same legs, but in their own ways: clusters by k-means and a
-route through each, or Voronoi cells and short routes through them.
+time, and what does not fit is discarded under way, where nothing better can replace it. So a
+plan for an uncertain ocean takes slack: all legs are longer by a factor. It also does well to end
+near the destination, since the long last leg of an AUV needs a long reserve: legs to the
+destination take `home` standard deviations more. How much of both is best depends on the mission,
+so several plans are made, and rehearsed: each is sailed with the same luck by whoever will steer,
+and the one that collects most is taken. The luck of the rehearsals is not that of the simulation.
+
+The planners that the paper compares with plan in their own ways, clusters by k-means or Voronoi
+cells and routes through them, and rehearse like the others.
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
 from fiveroute.heuristics.allocation import k_means, sub_routes, voronoi
+from fiveroute.heuristics.fleet_search import fleet_search
 from fiveroute.heuristics.pick_up import trim
 from fiveroute.heuristics.sggarp import optimise_route
+from fiveroute.heuristics.shortest_routes import shortest_routes
 from fiveroute.instance import Instance
-from fiveroute.limits import Limits, ProgressCallback
+from fiveroute.limits import Clock, Limits
 from fiveroute.mission import plan_mission
 from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.sea.simulation import simulate_fleet
+from fiveroute.sea.theatre import Theatre
+from fiveroute.tiers.actuation import expected_legs
 from fiveroute.tiers.preplanning import preplan
 
-__all__ = ["SLACK", "departure_plan"]
+__all__ = ["CAUTIONS", "departure_plan", "rehearse", "slack_plan"]
 
-SLACK = 1.08
-"""Default slack: the mean leg with its manoeuvres, and two per cent for the rest."""
+CAUTIONS = ((1.0, 2.0), (1.0, 3.0), (1.0, 5.0), (1.05, 2.0), (1.05, 3.0), (1.05, 5.0))
+"""Pairs of slack and `home` that plans are made with."""
+
+_SLACKS = (1.0, 1.04, 1.08, 1.12)
+_TRIALS = 30_000  # of the fleet search, for a plan
+_REHEARSALS = 1 << 40  # added to the seed
 
 
 def departure_plan(
-    instance: Instance,
+    theatre: Theatre,
     planner: str = "five-tier",
+    *,
+    reserve: float = 1.645,
+    runs: int = 20,
+    seed: int = 0,
+    limits: Limits | None = None,
+) -> Plan:
+    """The plan that a fleet sets out with: the best of several in rehearsals.
+
+    Parameters
+    ----------
+    theatre
+        The mission.
+    planner
+        Who will steer, see `fiveroute.sea.simulation.PLANNERS`.
+    reserve
+        Standard deviations of the remaining time that will be kept in hand.
+    runs
+        Rehearsals of every plan.
+    seed
+        Seed of the random numbers.
+    limits
+        When to stop; the best plan so far is returned.
+    """
+    clock = (limits or Limits()).start()
+    rng = np.random.default_rng((seed, 4))
+    plans: list[Plan] = []
+    choices = _SLACKS if planner in ("ftcmp", "rmmp") else CAUTIONS
+    for choice in choices:
+        if plans and clock.expired:
+            break
+        if isinstance(choice, tuple):
+            plans.append(_cautious_plan(theatre, *choice, rng))
+        else:
+            plans.append(_cluster_plan(theatre, planner, choice, np.random.default_rng(seed)))
+    return rehearse(theatre, plans, planner, reserve=reserve, runs=runs, seed=seed, clock=clock)
+
+
+def rehearse(
+    theatre: Theatre,
+    plans: Sequence[Plan],
+    planner: str,
+    *,
+    reserve: float = 1.645,
+    runs: int = 20,
+    seed: int = 0,
+    clock: Clock | None = None,
+) -> Plan:
+    """The plan that collects most on average, all of them sailed with the same luck.
+
+    Parameters
+    ----------
+    plans
+        Plans, one at least.
+    clock
+        Ends the rehearsals early; no limit without one.
+    """
+    best, most = plans[0], -1.0
+    for plan in plans:
+        if clock is not None and clock.expired:
+            break
+        luck = seed + _REHEARSALS
+        result = simulate_fleet(
+            theatre, plan, planner=planner, runs=runs, reserve=reserve, seed=luck, log=False
+        )
+        if result.completions.mean() > most:
+            best, most = plan, float(result.completions.mean())
+    return best
+
+
+def slack_plan(
+    instance: Instance,
+    slack: float = 1.0,
     *,
     fleet_size: int | None = None,
     travel: NDArray[np.float64] | None = None,
-    slack: float = SLACK,
     seed: int = 0,
     limits: Limits | None = None,
-    progress: ProgressCallback | None = None,
 ) -> Plan:
-    """Plan for a fleet that is to sail in an uncertain ocean.
+    """The plan of tiers 1 and 2 for legs that all take longer by one factor.
 
     Parameters
     ----------
     instance
         The mission.
-    planner
-        Who will steer, see `fiveroute.sea.simulation.PLANNERS`.
+    slack
+        Factor by which planned legs are inflated, at least 1.
     fleet_size
         Number of AUVs; None takes that of the instance, or else the estimate of tier 1, by
         legs without slack.
     travel
         Planned leg times in seconds, shape (n + 2, n + 2); None sails straight lines.
-    slack
-        Factor by which planning costs are inflated, at least 1.
     seed
         Seed of the random numbers.
     limits
         When to stop.
-    progress
-        Called as the work goes on.
     """
     if not 1.0 <= slack < np.inf:
         raise InputError("must be finite and at least 1", field="slack", value=slack)
-    legs = instance.travel if travel is None else travel
     if fleet_size is None:
         rng = np.random.default_rng(seed)
         fleet_size = preplan(instance, None, travel=travel, rng=rng).problem.fleet_size
-    if planner in ("ftcmp", "rmmp"):
-        problem = instance.problem(fleet_size, slack * legs)
-        rng = np.random.default_rng(seed)
-        make = _clusters if planner == "ftcmp" else _cells
-        return make(problem, instance.points, rng)
-    mission = plan_mission(
-        instance,
-        travel=slack * legs,
-        fleet_size=fleet_size,
-        limits=limits,
-        seed=seed,
-        progress=progress,
-    )
+    legs = slack * (instance.travel if travel is None else travel)
+    mission = plan_mission(instance, travel=legs, fleet_size=fleet_size, limits=limits, seed=seed)
     return mission.result.plan or Plan.empty(fleet_size)
 
 
-def _clusters(
-    problem: TeamOrienteering, points: NDArray[np.float64], rng: np.random.Generator
-) -> Plan:
-    """Clusters by k-means, and the best route over the nodes of each."""
-    routes = []
-    for auv, nodes in enumerate(k_means(points, problem.fleet_size, rng)):
-        short = trim(problem, auv, sub_routes(problem, [nodes])[0])
-        routes.append(optimise_route(problem, auv, short, nodes, rng=rng))
-    return Plan(tuple(routes))
+def _cautious_plan(theatre: Theatre, slack: float, home: float, rng: np.random.Generator) -> Plan:
+    """The best plan for expected legs with slack, and long reserves for the way home."""
+    mean, variance = expected_legs(theatre.law)
+    legs = slack * mean
+    legs[:, -1] += home * np.sqrt(variance[:, -1])
+    known = theatre.problem
+    problem = TeamOrienteering(legs, known.service, known.profit, known.budgets)
+    if shortest_routes(problem) is None:
+        return Plan.empty(known.fleet_size)
+    return fleet_search(problem, rng=rng, iterations=_TRIALS)
 
 
-def _cells(
-    problem: TeamOrienteering, points: NDArray[np.float64], rng: np.random.Generator
-) -> Plan:
-    """Voronoi cells of settled sites, and a short route through each as far as time allows."""
-    cells = sub_routes(problem, voronoi(points, problem.fleet_size, rng, "lloyd"))
-    return Plan(tuple(trim(problem, auv, route) for auv, route in enumerate(cells)))
+def _cluster_plan(theatre: Theatre, planner: str, slack: float, rng: np.random.Generator) -> Plan:
+    """Clusters by k-means with the best route over each, or Voronoi cells with a short one."""
+    known, points = theatre.problem, theatre.points
+    problem = TeamOrienteering(slack * known.travel, known.service, known.profit, known.budgets)
+    if planner == "rmmp":
+        cells = voronoi(points, known.fleet_size, rng, "lloyd")
+        routes = sub_routes(problem, cells)
+        return Plan(tuple(trim(problem, auv, route) for auv, route in enumerate(routes)))
+    clusters = k_means(points, known.fleet_size, rng)
+    short = [trim(problem, auv, r) for auv, r in enumerate(sub_routes(problem, clusters))]
+    return Plan(
+        tuple(
+            optimise_route(problem, auv, route, clusters[auv], rng=rng)
+            for auv, route in enumerate(short)
+        )
+    )

@@ -23,7 +23,10 @@ from fiveroute.kernels import kernel
 from fiveroute.sea.course import Course, Outlook, Stops, time_in_hand
 from fiveroute.sea.discarding import discard
 
-__all__ = ["replan"]
+__all__ = ["TRIALS", "replan"]
+
+TRIALS = 100
+"""Attempts to improve a course at a node; more do not help."""
 
 _BLUR = 0.6  # largest share by which chance lowers psi
 _LONGEST = 4  # nodes taken out at once, at most

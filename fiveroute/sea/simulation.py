@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from fiveroute.check import check
 from fiveroute.errors import InputError
+from fiveroute.instance import Instance
 from fiveroute.limits import Limits, Progress, ProgressCallback
 from fiveroute.plan import Plan
 from fiveroute.problem import TIME_TOLERANCE
@@ -29,22 +30,24 @@ from fiveroute.sea.planners.ftcmp import Ftcmp
 from fiveroute.sea.planners.of_one_mind import OfOneMind
 from fiveroute.sea.planners.own_pick_up import OwnPickUp
 from fiveroute.sea.planners.rmmp import Rmmp
+from fiveroute.sea.planners.to_the_letter import ToTheLetter
 from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Crew, Voyage
 from fiveroute.sea.watch import SILENCE
 
 __all__ = ["PLANNERS", "RunResult", "SimulationResult", "simulate_fleet"]
 
-PLANNERS = ("five-tier", "no-coordination", "ftcmp", "rmmp", "of-one-mind", "own-pick-up")
-"""Who can steer: the five-tiered planner with and without its fifth tier, those that the paper
-compares with, and two to learn from: perfect communication, and no auction."""
-
-_KNOWING: dict[str, type[Ftcmp | OfOneMind | OwnPickUp | Rmmp]] = {
+_KNOWING: dict[str, type[Ftcmp | OfOneMind | OwnPickUp | Rmmp | ToTheLetter]] = {
     "ftcmp": Ftcmp,
+    "rmmp": Rmmp,
+    "to-the-letter": ToTheLetter,
     "of-one-mind": OfOneMind,
     "own-pick-up": OwnPickUp,
-    "rmmp": Rmmp,
 }
+
+PLANNERS = ("five-tier", "no-coordination", *_KNOWING)
+"""Who can steer: the five-tiered planner with and without its fifth tier, the two that the paper
+compares with, and three to learn from, see their modules."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,7 +142,7 @@ class SimulationResult:
 
 
 def simulate_fleet(
-    theatre: Theatre,
+    mission: Instance | Theatre,
     plan: Plan,
     *,
     planner: str = "five-tier",
@@ -159,8 +162,8 @@ def simulate_fleet(
 
     Parameters
     ----------
-    theatre
-        The mission.
+    mission
+        The mission; an instance is sailed in straight lines, see `Theatre.of`.
     plan
         The routes with which the fleet sets out.
     planner
@@ -191,6 +194,7 @@ def simulate_fleet(
     InputError
         If an option or the plan makes no sense.
     """
+    theatre = Theatre.of(mission, len(plan.routes)) if isinstance(mission, Instance) else mission
     _check_options(theatre, plan, planner, runs, reserve, failures)
     sea = _Sea(
         theatre,
@@ -305,8 +309,9 @@ def _run_alone(
 
 
 def _late(theatre: Theatre, arrivals: list[float]) -> int:
-    allowed = (theatre.problem.budgets * (1.0 + TIME_TOLERANCE)).tolist()
-    return sum(allowed[m] < arrival < math.inf for m, arrival in enumerate(arrivals))
+    """Number of AUVs that arrived after their time."""
+    times, allowed = np.array(arrivals), theatre.problem.budgets * (1.0 + TIME_TOLERANCE)
+    return int(((times > allowed) & np.isfinite(times)).sum())
 
 
 def _check_options(

@@ -9,6 +9,7 @@ import pytest
 
 from fiveroute.generate import generate
 from fiveroute.plan import Plan
+from fiveroute.sea.agent import BEAT
 from fiveroute.sea.channel import Bursts, Channel
 from fiveroute.sea.course import in_hand, outlook
 from fiveroute.sea.events import Kind
@@ -139,6 +140,24 @@ def test_a_failed_teammate_is_replaced(theatre: Theatre) -> None:
     inherited = set(range(1, 13)) & collections(voyage).keys()
     assert inherited
     assert all(e.t > SILENCE for e in voyage.log if e.kind == "collect" and e.node in inherited)
+
+
+def test_an_auction_takes_few_messages() -> None:
+    """One keeper, five idle nodes, three bidders: all is settled in at most twenty each."""
+    for seed in range(20):
+        theatre = Theatre.of(generate(nodes=9, seed=seed, fleet_size=4))
+        plan = Plan.of([[6], [7], [8], [9]])
+        view = outlook(theatre.problem, theatre.law, 1.645)
+        voyage = Voyage(theatre.problem, Luck(theatre.law, seed, 0), (math.inf,) * 4)
+        rng = np.random.default_rng(0)
+        crew = FiveTier(voyage, view, plan, channel=Channel(), points=theatre.points, rng=rng)
+        for agent in crew.agents:
+            agent.holdings.kept.clear()
+        crew.agents[0].holdings.kept.update(range(1, 6))
+        voyage.sail(crew)
+        messages = Counter(e.auv for e in voyage.log if e.kind == "send" and e.t < BEAT)
+        assert max(messages.values()) <= 20
+        assert_one_right_a_node(crew)
 
 
 def test_coordination_collects_more_than_none(theatre: Theatre, plan: Plan) -> None:

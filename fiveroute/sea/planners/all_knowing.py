@@ -6,9 +6,12 @@ delay or loss, which is more than any fleet under water has.
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from fiveroute.plan import Plan, Route
 from fiveroute.sea.course import Course, Outlook
 from fiveroute.sea.discarding import discard
+from fiveroute.sea.replanning import TRIALS, replan
 from fiveroute.sea.voyage import Voyage, course_of
 from fiveroute.sea.watch import SILENCE
 
@@ -61,6 +64,18 @@ class AllKnowing:
         for node in dropped:
             self.voyage.note(t, auv, "discard", node)
         return course, dropped
+
+    def replan(self, auv: int, t: float, idle: Collection[int]) -> None:
+        """Let an AUV at a node plan its route anew over its own and some idle nodes."""
+        before = self.at_node(auv, t)
+        seed = self.voyage.luck.run * 997 + auv
+        after, left_over = replan(self.view, before, idle, TRIALS, seed)
+        dropped = set(before.route).intersection(left_over)
+        for node in sorted(dropped):
+            self.voyage.note(t, auv, "discard", node)
+        self.set_route(auv, t, after.route)
+        self.idle.update(dropped)
+        self.idle.difference_update(after.route)
 
     def set_route(self, auv: int, t: float, route: Route) -> None:
         """Give an AUV another route; what is new on it has been picked up."""

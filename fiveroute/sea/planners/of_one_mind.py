@@ -1,13 +1,13 @@
 """The five-tiered planner with perfect communication: all AUVs know all, at once.
 
-What the auction could do if messages took no time and none was lost; the difference to
-`fiveroute.sea.planners.five_tier` is what the sea costs.
+What `fiveroute.sea.planners.five_tier` could do if messages took no time and none was lost; the
+difference is what the sea costs.
 """
 
 from __future__ import annotations
 
 from fiveroute.sea.planners.all_knowing import AllKnowing
-from fiveroute.tiers.coordination import coordinate
+from fiveroute.tiers.coordination import assign_idle_nodes
 
 __all__ = ["OfOneMind"]
 
@@ -18,13 +18,10 @@ class OfOneMind(AllKnowing):
     def steer(self, auv: int, t: float) -> int:
         """The next vertex of an AUV, after the fleet has coordinated."""
         self.idle.update(self.abandoned(t))
-        here = self.at_node(auv, t)
+        self.replan(auv, t, self.idle)
         active = self.active
-        before = [here if m == auv else self.course(m, t) for m in active]
-        courses, dropped, awards = coordinate(self.view, before, active.index(auv), self.idle)
-        for node in dropped:
-            self.voyage.note(t, auv, "discard", node)
-        self.idle.update(dropped)
+        before = [self.course(m, t) for m in active]
+        courses, awards = assign_idle_nodes(self.view, before, self.idle)
         self.idle.difference_update(award.node for award in awards)
         for m, course in zip(active, courses, strict=True):
             self.set_route(m, t, course.route)

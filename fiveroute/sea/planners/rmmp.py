@@ -21,12 +21,9 @@ from dataclasses import replace
 import numpy as np
 
 from fiveroute.sea.planners.all_knowing import AllKnowing
-from fiveroute.sea.replanning import replan
+from fiveroute.sea.replanning import TRIALS, replan
 
-__all__ = ["TRIALS", "Rmmp"]
-
-TRIALS = 100
-"""Attempts to improve a route."""
+__all__ = ["Rmmp"]
 
 
 class Rmmp(AllKnowing):
