@@ -50,6 +50,7 @@ class Method:
 
 METHODS: Mapping[str, Method] = MappingProxyType(
     {
+        "branch-price": Method("fiveroute.models.branch_price"),
         "brute-force": Method("fiveroute.models.brute_force"),
         "circuit": Method("fiveroute.models.circuit"),
         "compact": Method("fiveroute.models.compact"),

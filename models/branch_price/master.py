@@ -1,0 +1,175 @@
+r"""The master problem: which routes to sail, as a linear programme over those known so far.
+
+    max  sum_r rho_r lambda_r
+    s.t. sum_r a_ir lambda_r <= 1            for every sensor node i             pi_i
+         sum over r of class >= c of lambda_r <= sum_(c' >= c) M_c'   for every class c   mu_c
+         sum_r floor(sum_(i in S) a_ir / 2) lambda_r <= 1     for every cut S    sigma_S
+         lambda >= 0,
+
+a_ir being how often route r visits node i. The class of a route is the first whose budget is long
+enough for it, so that the second family lets every route be sailed by any AUV that can. A
+route of class c costs nu_c = mu_1 + ... + mu_c. Where some AUV cannot sail straight to the
+destination, every AUV needs a column, c = 1 is an equation, and slack in it is heavily fined.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_array, csr_array
+
+from fiveroute.limits import Clock
+from fiveroute.models.branch_price.pricing import Cut, Duals
+from fiveroute.models.branch_price.roads import Roads
+from fiveroute.models.highs import Outcome, Program
+from fiveroute.plan import Route
+
+__all__ = ["Master"]
+
+Floats = NDArray[np.float64]
+
+_FINE = 10.0  # times all data, for an AUV without a route
+
+
+class Master:
+    """The linear programme over known routes.
+
+    Parameters
+    ----------
+    roads
+        Legs, limits and AUVs.
+    clock
+        When to stop.
+    """
+
+    def __init__(self, roads: Roads, clock: Clock) -> None:
+        self.roads, self._clock = roads, clock
+        self.routes: list[Route] = []
+        self.classes: list[int] = []
+        self._allowed: list[bool] = []
+        self.cuts: list[Cut] = []
+        self._known: set[tuple[Route, int]] = set()
+        self.objective = 0.0
+        n, count = roads.problem.n, len(roads.limits)
+        self._program = Program(clock, maximise=True)
+        above = roads.routes[::-1].cumsum()[::-1]
+        lower = np.full(n + count, -np.inf)
+        if roads.must_detour:
+            lower[n] = above[0]
+        self._program.add_rows(csr_array((n + count, 0)), lower, np.concatenate([np.ones(n), above]))
+        if roads.must_detour:
+            fine = -_FINE * max(roads.problem.total_profit, 1.0)
+            slack = csc_array(([1.0], ([n], [0])), shape=(n + count, 1))
+            self._program.add_columns([fine], 0.0, np.inf, slack)
+        self._first = int(roads.must_detour)
+
+    def add(self, routes: Iterable[Route]) -> int:
+        """Add the routes that are new; return how many."""
+        new = []
+        for route in routes:
+            auv_class = self.roads.class_of(self.roads.duration(route))
+            key = tuple(sorted(route)), auv_class
+            if auv_class == len(self.roads.limits) or key in self._known:
+                continue
+            self._known.add(key)
+            new.append((route, auv_class))
+        if new:
+            self.routes += [route for route, _ in new]
+            self.classes += [auv_class for _, auv_class in new]
+            self._allowed += [True] * len(new)
+            matrix = self._columns([route for route, _ in new], [k for _, k in new])
+            profit = [float(self.roads.profit[list(route)].sum()) for route, _ in new]
+            self._program.add_columns(profit, 0.0, np.inf, matrix)
+        return len(new)
+
+    def ban(self, is_banned: Callable[[Route], bool]) -> None:
+        """Leave routes out from now on."""
+        for k, route in enumerate(self.routes):
+            if self._allowed[k] and is_banned(route):
+                self._allowed[k] = False
+                self._known.discard((tuple(sorted(route)), self.classes[k]))
+                self._program.highs.changeColBounds(self._first + k, 0.0, 0.0)
+
+    def _columns(self, routes: Sequence[Route], classes: Sequence[int]) -> csc_array:
+        n = self.roads.problem.n
+        rows: list[int] = []
+        entries: list[float] = []
+        starts = [0]
+        for route, auv_class in zip(routes, classes, strict=True):
+            visits: dict[int, float] = {}
+            for node in route:
+                visits[node - 1] = visits.get(node - 1, 0.0) + 1.0
+            for c in range(auv_class + 1):
+                visits[n + c] = 1.0
+            for k, cut in enumerate(self.cuts):
+                if (taken := coefficient(route, cut)) > 0:
+                    visits[n + len(self.roads.limits) + k] = float(taken)
+            rows += visits
+            entries += visits.values()
+            starts.append(len(rows))
+        height = n + len(self.roads.limits) + len(self.cuts)
+        return csc_array((entries, rows, starts), shape=(height, len(routes)))
+
+    def reduced_profit(self, k: int, duals: Duals) -> float:
+        """What route k is worth beyond its floor."""
+        visits = list(self.routes[k])
+        value = float((self.roads.profit[visits] - duals.node[visits]).sum())
+        paid = sum(
+            price * coefficient(self.routes[k], cut)
+            for cut, price in zip(duals.cuts, duals.price.tolist(), strict=True)
+            if price > 0.0
+        )
+        return value - paid - float(duals.floor[self.classes[k]])
+
+    def add_cuts(self, cuts: Sequence[Cut]) -> None:
+        """Add subset-row cuts."""
+        entries = [
+            (k, column + self._first, float(taken))
+            for k, cut in enumerate(cuts)
+            for column, route in enumerate(self.routes)
+            if (taken := coefficient(route, cut)) > 0
+        ]
+        rows, columns, values = zip(*entries, strict=True) if entries else ((), (), ())
+        width = self._first + len(self.routes)
+        matrix = csr_array((values, (rows, columns)), shape=(len(cuts), width))
+        self._program.add_rows(matrix, -np.inf, 1.0)
+        self.cuts += cuts
+
+    def remove_cuts(self, places: Sequence[int]) -> None:
+        """Remove cuts by their places in `cuts`."""
+        first = self.roads.problem.n + len(self.roads.limits)
+        self._program.delete_rows([first + k for k in places])
+        self.cuts = [cut for k, cut in enumerate(self.cuts) if k not in set(places)]
+
+    def solve(self) -> Duals | None:
+        """Solve; the multipliers, or None when stopped."""
+        if self._program.solve() is not Outcome.OPTIMAL:
+            return None
+        n, count = self.roads.problem.n, len(self.roads.limits)
+        self.objective = self._program.objective
+        self.shares = self._program.values[self._first :]
+        self.fined = self._first > 0 and self._program.values[0] > 1e-9
+        duals = self._program.row_duals
+        floor = np.maximum(duals[n : n + count], 0.0)
+        if self.roads.must_detour:
+            floor[0] = duals[n]
+        return Duals(
+            np.pad(np.maximum(duals[:n], 0.0), 1),
+            floor.cumsum(),
+            tuple(self.cuts),
+            np.maximum(duals[n + count :], 0.0),
+        )
+
+
+def coefficient(route: Route, cut: Cut) -> int:
+    """How often a route pays for a cut of limited memory."""
+    taken, half = 0, 0
+    for node in route:
+        if node not in cut.memory:
+            half = 0
+        elif node in cut.nodes:
+            taken, half = taken + half, 1 - half
+    return taken
+

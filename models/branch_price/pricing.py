@@ -1,0 +1,345 @@
+"""The pricing problem: which routes are worth more than the AUV that sails them costs?
+
+Given multipliers pi_i of the nodes, sigma_S of the cuts and a floor nu_c for every class c of equal
+AUVs, a route r is worth
+
+    v(r) = sum over visits of (rho_i - pi_i) - what it pays for the cuts,
+
+and best_c is the most that any ng-route within the budget of class c is worth. The bound that
+follows (`Duals.bound`) is valid for all multipliers:
+
+    sum_i pi_i + sum_S sigma_S + sum_c M_c best_c.
+
+A search with floors finds routes worth more than nu_c, or proves that best_c <= nu_c. One labelling
+does for all classes, because a route is in time for every class whose budget is long enough.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fiveroute.limits import Clock
+from fiveroute.models.branch_price import labels as lb
+from fiveroute.models.branch_price.completion import Completion, complete
+from fiveroute.models.branch_price.join import join_at, labels_at
+from fiveroute.models.branch_price.roads import Roads
+from fiveroute.plan import Route
+
+__all__ = ["Cut", "Duals", "Pricer", "Priced"]
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Booleans = NDArray[np.bool_]
+
+_STEPS = 500  # of the completion bounds
+_BUCKETS = 64
+_WORK = 3_000_000  # extensions and comparisons between two looks at the clock
+_FIRST_LABELS = 1 << 14
+_SAFE = 1e-9  # share of the terms of a sum that its rounding errors stay far below
+_JOINS = 8  # routes kept for every node at which halves meet
+_BALANCE = 1.3  # ratio of labels of both halves above which the half-way point moves
+_SHIFT = 0.03  # share of the horizon by which it moves
+
+
+@dataclass(frozen=True, slots=True)
+class Cut:
+    """A subset-row cut over three nodes, and the nodes at which routes remember it."""
+
+    nodes: tuple[int, int, int]
+    memory: frozenset[int]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Duals:
+    """Multipliers of the master problem.
+
+    Parameters
+    ----------
+    node
+        pi, shape (n + 2,); 0 at both ends.
+    floor
+        nu_c of every class, ascending, shape (C,).
+    cuts
+        Subset-row cuts.
+    price
+        sigma, shape (len(cuts),), not negative.
+    """
+
+    node: Floats
+    floor: Floats
+    cuts: tuple[Cut, ...] = ()
+    price: Floats = field(default_factory=lambda: np.zeros(0))
+
+    def between(self, other: Duals, share: float) -> Duals:
+        """`share` of these and the rest of others with the same cuts."""
+        rest = 1.0 - share
+        return replace(
+            self,
+            node=share * self.node + rest * other.node,
+            floor=share * self.floor + rest * other.floor,
+            price=share * self.price + rest * other.price,
+        )
+
+    def bound(self, routes: Floats, best: Floats) -> float:
+        """Bound on the data of all plans, rounded up.
+
+        Parameters
+        ----------
+        routes
+            Number of AUVs M_c of every class, shape (C,).
+        best
+            best_c, or bounds on it, shape (C,).
+        """
+        if best.min() == -np.inf:  # some class has no route at all
+            return -np.inf
+        terms = np.concatenate([self.node, self.price, routes * best])
+        return float(terms.sum()) + _SAFE * float(np.abs(terms).sum())
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Priced:
+    """What a pricing found.
+
+    Parameters
+    ----------
+    routes
+        Routes worth more than their floor, the best first; ng-routes may come back to a node.
+    best
+        Proven bounds on best_c, shape (C,).
+    is_exact
+        Whether the search ended, so that `best` is what the ng-routes attain or the floor.
+    """
+
+    routes: list[Route]
+    best: Floats
+    is_exact: bool
+
+
+class Pricer:
+    """Finds valuable routes over the roads; remembers neighbourhoods and the half-way point.
+
+    Parameters
+    ----------
+    roads
+        Legs and limits.
+    near
+        Neighbourhoods: `near[i, j]` tells whether j is in N_i, shape (n + 2, n + 2).
+    """
+
+    def __init__(self, roads: Roads, near: Booleans) -> None:
+        self.roads, self.near = roads, near
+        self.half = 0.5
+        self.most_labels = 3_000_000
+        self.labels = 0
+
+    def price(self, duals: Duals, clock: Clock, *, exact: bool = True) -> Priced | None:
+        """Search for routes; None if the clock or the room for labels ends an inexact search."""
+        gain = self.roads.profit - duals.node
+        graph = _Graph.of(self.roads, gain, self.near, duals)
+        horizon = float(self.roads.limits[-1])
+        ahead = complete(graph.leg.T, graph.gain, len(graph.gain) - 1, horizon, _STEPS)
+        behind = complete(graph.leg, graph.gain, 0, horizon, _STEPS)
+        walks = _walk_bounds(behind, self.roads.limits)
+        floor = np.nextafter(duals.floor, np.inf)
+        if (walks <= floor).all():
+            return Priced([], walks, True)
+        half = self.half * horizon
+        search = _Search(graph, self.roads.limits, floor, exact, clock, self.most_labels)
+        forward, backward = search.start(0), search.start(len(graph.gain) - 1)
+        done = search.grow(forward, graph.leg, ahead, half)
+        done = done and search.grow(backward, graph.leg.T.copy(), behind, horizon - half)
+        self.labels = forward.count + backward.count
+        if not done:
+            return Priced([], walks, False) if exact else None
+        self._balance(forward.count, backward.count)
+        found, routes = search.join(forward, backward, half)
+        if found is None:
+            return Priced(routes, walks, False)
+        best = np.minimum(np.maximum.accumulate(np.maximum(found, floor)), walks)
+        return Priced(routes, best if exact else walks, exact)
+
+    def walk_bound(self, duals: Duals) -> Floats:
+        """Bounds on best_c from walks alone."""
+        graph = _Graph.of(self.roads, self.roads.profit - duals.node, self.near, duals)
+        behind = complete(graph.leg, graph.gain, 0, float(self.roads.limits[-1]), _STEPS)
+        return _walk_bounds(behind, self.roads.limits)
+
+    def _balance(self, forward: int, backward: int) -> None:
+        if forward > _BALANCE * backward:
+            self.half = max(self.half - _SHIFT, 0.2)
+        elif backward > _BALANCE * forward:
+            self.half = min(self.half + _SHIFT, 0.8)
+
+
+def _walk_bounds(walks: Completion, limits: Floats) -> Floats:
+    """Most value of a walk from the start to the destination, for every class."""
+    steps = np.minimum((limits / walks.step + 1e-9).astype(np.int64), len(walks.best) - 1)
+    bounds: Floats = walks.best[steps, -1]
+    return bounds
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Graph:
+    """The nodes worth a visit, numbered anew, and all that the kernels know of them."""
+
+    nodes: Ints
+    leg: Floats
+    gain: Floats
+    members: Ints
+    place: Ints
+    in_cut: Ints
+    recall: Ints
+    sigma: Floats
+
+    @classmethod
+    def of(cls, roads: Roads, gain: Floats, near: Booleans, duals: Duals) -> _Graph:
+        nodes = roads.worth_a_visit(gain)
+        both = np.ix_(nodes, nodes)
+        close = near[both]
+        place = np.where(close, np.cumsum(close, axis=1) - 1, -1)
+        members = np.full((len(nodes), max(int(close.sum(axis=1).max(initial=0)), 1)), -1)
+        rows, heads = np.nonzero(close)
+        members[rows, place[rows, heads]] = heads
+        in_cut, recall = (np.zeros(len(near), dtype=np.int64) for _ in range(2))
+        priced = np.flatnonzero(duals.price > 0.0)
+        for c, k in enumerate(priced.tolist()):
+            in_cut[list(duals.cuts[k].nodes)] |= 1 << c
+            recall[list(duals.cuts[k].memory)] |= 1 << c
+        return cls(
+            nodes,
+            np.ascontiguousarray(roads.leg[both]),
+            gain[nodes],
+            members.astype(np.int64),
+            place.astype(np.int64),
+            in_cut[nodes],
+            recall[nodes],
+            duals.price[priced],
+        )
+
+
+class _Labels:
+    """The label store of one direction; it grows by doubling."""
+
+    def __init__(self, origin: int, size: int) -> None:
+        self.time, self.value = np.zeros(_FIRST_LABELS), np.zeros(_FIRST_LABELS)
+        self.masks = np.zeros((_FIRST_LABELS, 2), dtype=np.int64)
+        self.links = np.full((_FIRST_LABELS, 5), -1, dtype=np.int64)
+        self.first = np.full((size, _BUCKETS), -1, dtype=np.int64)
+        self.top = np.full((size, _BUCKETS), -np.inf)
+        self.waiting = np.full(_BUCKETS, -1, dtype=np.int64)
+        self.state = np.array([1, 0], dtype=np.int64)
+        self.links[0, lb.NODE], self.links[0, lb.KEPT] = origin, 1
+        self.waiting[0] = 0
+
+    @property
+    def count(self) -> int:
+        return int(self.state[lb.COUNT])
+
+    def double(self) -> None:
+        for name in ("time", "value", "masks", "links"):
+            old = getattr(self, name)
+            setattr(self, name, np.concatenate([old, np.zeros_like(old)]))
+
+    def path(self, label: int) -> list[int]:
+        """Nodes of a label, its own first, without the origin."""
+        nodes = []
+        while self.links[label, lb.PARENT] >= 0:
+            nodes.append(int(self.links[label, lb.NODE]))
+            label = int(self.links[label, lb.PARENT])
+        return nodes
+
+
+class _Search:
+    """One pricing: grow both halves, join them."""
+
+    def __init__(
+        self,
+        graph: _Graph,
+        limits: Floats,
+        floors: Floats,
+        exact: bool,
+        clock: Clock,
+        most_labels: int,
+    ) -> None:
+        self.graph, self.limits, self.floors, self.exact = graph, limits, floors, exact
+        self.clock, self.most_labels = clock, most_labels
+        self.scale = max(float(np.abs(graph.gain).sum()), 1e-300)
+
+    def start(self, origin: int) -> _Labels:
+        return _Labels(origin, len(self.graph.gain))
+
+    def grow(self, side: _Labels, leg: Floats, rest: Completion, half: float) -> bool:
+        """Grow all labels up to `half`; return whether that came to an end."""
+        graph = self.graph
+        while True:
+            outcome = lb.extend_labels(
+                leg, graph.gain, graph.members, graph.place, graph.in_cut, graph.recall,
+                graph.sigma, rest.best, rest.before, rest.other, rest.step, self.limits,
+                self.floors, half, self.exact, self.scale, side.time, side.value, side.masks,
+                side.links, side.first, side.top, side.waiting, side.state, _WORK,
+            )  # fmt: skip
+            if outcome == lb.DONE:
+                return True
+            if self.clock.expired or side.count > self.most_labels:
+                return False
+            if outcome == lb.FULL:
+                side.double()
+
+    def join(
+        self, forward: _Labels, backward: _Labels, half: float
+    ) -> tuple[Floats | None, list[Route]]:
+        """Highest value of every class, None when stopped; and the routes found."""
+        found = np.full(len(self.limits), -np.inf)
+        priced = self._whole(forward, found)
+        for node, heads, tails in self._meetings(forward, backward, half):
+            best, pairs = np.full(_JOINS, -np.inf), np.zeros((_JOINS, 2), dtype=np.int64)
+            at = 0
+            while at < len(heads):
+                at = join_at(
+                    node, self.graph.gain[node], 1 << int(self.graph.place[node, node]),
+                    int(self.graph.in_cut[node]), self.graph.sigma, self.limits, self.floors,
+                    forward.time, forward.value, forward.masks, heads, backward.time,
+                    backward.value, backward.masks, tails, at, _WORK, found, best, pairs,
+                )  # fmt: skip
+                if self.clock.expired:
+                    return None, self._routes(priced)
+            for k in np.flatnonzero(best > -np.inf):
+                head, tail = (int(label) for label in pairs[k])
+                path = forward.path(head)[::-1] + backward.path(tail)[1:]
+                priced.append((float(best[k]), path))
+        return found, self._routes(priced)
+
+    def _whole(self, forward: _Labels, found: Floats) -> list[tuple[float, list[int]]]:
+        """Routes that the labels from the start are by themselves."""
+        target = len(self.graph.gain) - 1
+        kept = forward.links[: forward.count]
+        priced = []
+        for label in np.flatnonzero(kept[:, lb.NODE] == target):
+            auv_class = int(np.searchsorted(self.limits, forward.time[label]))
+            value = float(forward.value[label])
+            found[auv_class] = max(found[auv_class], value)
+            if value > self.floors[auv_class]:
+                priced.append((value, forward.path(int(label))[:0:-1]))
+        return sorted(priced, reverse=True)[: 10 * _JOINS]
+
+    def _meetings(
+        self, forward: _Labels, backward: _Labels, half: float
+    ) -> Iterator[tuple[int, Ints, Ints]]:
+        """Nodes with the labels of both halves there."""
+        heads = labels_at(forward.value, forward.time, forward.links, forward.count, half)
+        tails = labels_at(backward.value, backward.time, backward.links, backward.count, -1.0)
+        at_head, at_tail = forward.links[heads, lb.NODE], backward.links[tails, lb.NODE]
+        for node in range(1, len(self.graph.gain) - 1):
+            a = slice(*np.searchsorted(at_head, [node, node + 1]))
+            b = slice(*np.searchsorted(at_tail, [node, node + 1]))
+            if a.start < a.stop and b.start < b.stop:
+                yield node, heads[a], tails[b]
+
+    def _routes(self, priced: list[tuple[float, list[int]]]) -> list[Route]:
+        """Routes in the numbers of the problem, the most valuable first."""
+        priced.sort(key=lambda entry: -entry[0])
+        return [tuple(int(k) for k in self.graph.nodes[path]) for _, path in priced]
