@@ -1,0 +1,240 @@
+"""Every elementary route that a better plan may sail, each node set once, in its shortest order.
+
+Let U be a bound with multipliers, best_c its parts and v(r) the worth of a route, see
+`fiveroute.models.branch_price.pricing`. A plan that sails r with an AUV of class c collects at
+most U - (best_c - v(r)). So every plan that collects more than a target L consists of routes with
+
+    v(r) > best_c - (U - L).
+
+They are enumerated node by node (R. Baldacci, A. Mingozzi and R. Roberti 2011, doi
+10.1287/opre.1110.0975). Of two orders of the same nodes with the same end the shorter one replaces
+the other in any plan: a table of node sets tells in no time. What a partial route can still
+collect is bounded by walks.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_array
+
+from fiveroute.kernels import kernel
+from fiveroute.limits import Clock
+from fiveroute.models.branch_price.column_generation import Relaxation
+from fiveroute.models.branch_price.completion import complete, completion_bound
+from fiveroute.models.branch_price.pool import Pool
+from fiveroute.models.branch_price.roads import Roads
+from fiveroute.plan import Route
+
+__all__ = ["enumerate_routes"]
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+_BITS = 62  # nodes in a word
+_STEPS = 1000
+_WORK = 400_000  # extensions between two looks at the clock
+_END, _PARENT, _HASH = 0, 1, 2
+
+
+def enumerate_routes(
+    roads: Roads, relaxation: Relaxation, target: float, clock: Clock, most: int
+) -> Pool | None:
+    """All routes of plans that collect more than `target`; None beyond `most` partial routes.
+
+    The multipliers of cuts are left aside: the worth of a route without them is no smaller.
+    """
+    gap = relaxation.value - target + 1e-9 * max(1.0, abs(relaxation.value))
+    table = _Table(roads, relaxation, gap)
+    if not table.grow(clock, most):
+        return None
+    return table.pool()
+
+
+class _Table:
+    """Partial routes by node set and end."""
+
+    def __init__(self, roads: Roads, relaxation: Relaxation, gap: float) -> None:
+        self.roads = roads
+        size = len(roads.leg)
+        self.gain = roads.profit - relaxation.duals.node
+        self.floors = relaxation.best - gap
+        horizon = float(roads.limits[-1])
+        self.rest = complete(roads.leg.T, self.gain, size - 1, horizon, _STEPS)
+        rng = np.random.default_rng(0)
+        self.code = rng.integers(1, 1 << 62, size=size)
+        self.end_code = rng.integers(1, 1 << 62, size=size)
+        room = 1 << 12
+        self.words = np.zeros((room, size // _BITS + 1), dtype=np.int64)
+        self.time, self.value = np.zeros(room), np.zeros(room)
+        self.links = np.zeros((room, 3), dtype=np.int64)
+        self.links[0, _PARENT] = -1
+        self.slots = np.full(2 * room, -1, dtype=np.int64)
+        self.count = 1
+
+    def grow(self, clock: Clock, most: int) -> bool:
+        """Enumerate; return whether that came to an end."""
+        first, last = 0, 1
+        while first < last:
+            at = first
+            while at < last:
+                at, self.count = _extend(
+                    self.roads.leg, self.gain, self.roads.limits, self.floors, self.rest.best,
+                    self.rest.before, self.rest.other, self.rest.step, self.code, self.end_code,
+                    self.words, self.time, self.value, self.links, self.slots, self.count,
+                    at, last, _WORK,
+                )  # fmt: skip
+                if clock.expired or self.count > most:
+                    return False
+                if self.count + len(self.code) > len(self.time):
+                    self._double()
+            first, last = last, self.count
+        return True
+
+    def _double(self) -> None:
+        for name in ("words", "time", "value", "links"):
+            old = getattr(self, name)
+            setattr(self, name, np.concatenate([old, np.zeros_like(old)]))
+        self.slots = np.full(2 * len(self.time), -1, dtype=np.int64)
+        _enter_all(self.links, self.end_code, self.slots, self.count)
+
+    def pool(self) -> Pool:
+        """The shortest route over every node set that is worth enough."""
+        ends = self.links[: self.count, _END]
+        time = self.time[: self.count] + self.roads.leg[ends, -1]
+        classes = np.searchsorted(self.roads.limits, time)
+        within = classes < len(self.roads.limits)
+        within[within] = self.value[: self.count][within] > self.floors[classes[within]]
+        labels = np.flatnonzero(within)
+        order = np.lexsort((time[labels], *self.words[labels].T))
+        labels = labels[order]
+        if len(labels):
+            new = (np.diff(self.words[labels], axis=0) != 0).any(axis=1)
+            labels = labels[np.concatenate([[True], new])]
+        visits = _visits(self.words[labels], len(self.code))
+        profit: Floats = visits.T @ self.roads.profit
+        return Pool(visits, classes[labels], profit, lambda k: self._route(int(labels[k])))
+
+    def _route(self, label: int) -> Route:
+        nodes = []
+        while self.links[label, _PARENT] >= 0:
+            nodes.append(int(self.links[label, _END]))
+            label = int(self.links[label, _PARENT])
+        return tuple(reversed(nodes))
+
+
+def _visits(words: Ints, size: int) -> csc_array:
+    """Matrix of visits, shape (size, sets), of node sets given by bits."""
+    node = np.arange(size)
+    member = words[:, node // _BITS] >> (node % _BITS) & 1
+    places, nodes = np.nonzero(member)
+    starts = np.concatenate([[0], np.cumsum(member.sum(axis=1))])
+    return csc_array((np.ones(len(places)), nodes, starts), shape=(size, len(words)))
+
+
+@kernel
+def _extend(
+    leg: Floats,
+    gain: Floats,
+    limits: Floats,
+    floors: Floats,
+    best: Floats,
+    before: Ints,
+    other: Floats,
+    step: float,
+    code: Ints,
+    end_code: Ints,
+    words: Ints,
+    time: Floats,
+    value: Floats,
+    links: Ints,
+    slots: Ints,
+    count: int,
+    at: int,
+    last: int,
+    work: int,
+) -> tuple[int, int]:
+    """Extend partial routes from `at` on, all before `last` having the same number of nodes.
+
+    Returns
+    -------
+    int, int
+        Where to go on, and the number of partial routes. All arrays from `words` on are
+        changed in place; the call ends when they have no room for another extension.
+    """
+    size = len(gain)
+    done = 0
+    for label in range(at, last):
+        if done > work or count + size > len(time):
+            return label, count
+        i = links[label, 0]
+        for j in range(1, size - 1):
+            t = time[label] + leg[i, j]
+            word, bit = j // 62, 1 << (j % 62)
+            if t > limits[-1] or words[label, word] & bit:
+                continue
+            done += 1
+            worthwhile = False
+            for c in range(len(limits)):
+                rest = completion_bound(best, before, other, step, limits[c] - t, i, j)
+                if value[label] + rest > floors[c]:
+                    worthwhile = True
+                    break
+            if not worthwhile:
+                continue
+            mixed = links[label, 2] ^ code[j]
+            slot = _find(words, links, slots, words[label], word, bit, mixed, j, end_code[j])
+            new = slots[slot]
+            if new < 0:
+                new = slots[slot] = count
+                count += 1
+                words[new] = words[label]
+                words[new, word] |= bit
+                value[new] = value[label] + gain[j]
+                links[new, 0], links[new, 2] = j, mixed
+                time[new] = np.inf
+            if t < time[new]:
+                time[new], links[new, 1] = t, label
+    return last, count
+
+
+@kernel
+def _find(
+    words: Ints,
+    links: Ints,
+    slots: Ints,
+    before: Ints,
+    word: int,
+    bit: int,
+    mixed: int,
+    end: int,
+    end_code: int,
+) -> int:
+    """Slot of the partial route over the nodes `before` and one more, its end; or a free slot."""
+    slot = (mixed ^ end_code) % len(slots)
+    while slots[slot] >= 0:
+        known = slots[slot]
+        if links[known, 2] == mixed and links[known, 0] == end:
+            same = True
+            for w in range(len(before)):
+                if words[known, w] != (before[w] | bit if w == word else before[w]):
+                    same = False
+                    break
+            if same:
+                return slot
+        slot += 1
+        if slot == len(slots):
+            slot = 0
+    return slot
+
+
+@kernel
+def _enter_all(links: Ints, end_code: Ints, slots: Ints, count: int) -> None:
+    """Fill an empty table with all partial routes, which are different."""
+    for label in range(1, count):
+        slot = (links[label, 2] ^ end_code[links[label, 0]]) % len(slots)
+        while slots[slot] >= 0:
+            slot += 1
+            if slot == len(slots):
+                slot = 0
+        slots[slot] = label
