@@ -22,6 +22,7 @@ from fiveroute.kernels import kernel
 from fiveroute.limits import Clock
 from fiveroute.models.branch_price.column_generation import Relaxation
 from fiveroute.models.branch_price.completion import complete, completion_bound
+from fiveroute.models.branch_price.labels import priced
 from fiveroute.models.branch_price.pool import Pool
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.plan import Route
@@ -34,16 +35,13 @@ Ints = NDArray[np.int64]
 _BITS = 62  # nodes in a word
 _STEPS = 1000
 _WORK = 400_000  # extensions between two looks at the clock
-_END, _PARENT, _HASH = 0, 1, 2
+_END, _PARENT, _HASH, _CUTS = 0, 1, 2, 3
 
 
 def enumerate_routes(
     roads: Roads, relaxation: Relaxation, target: float, clock: Clock, most: int
 ) -> Pool | None:
-    """All routes of plans that collect more than `target`; None beyond `most` partial routes.
-
-    The multipliers of cuts are left aside: the worth of a route without them is no smaller.
-    """
+    """All routes of plans that collect more than `target`; None beyond `most` partial routes."""
     gap = relaxation.value - target + 1e-9 * max(1.0, abs(relaxation.value))
     table = _Table(roads, relaxation, gap)
     if not table.grow(clock, most):
@@ -58,6 +56,7 @@ class _Table:
         self.roads = roads
         size = len(roads.leg)
         self.gain = roads.profit - relaxation.duals.node
+        self.in_cut, self.recall, self.sigma = relaxation.duals.cut_masks()
         self.floors = relaxation.best - gap
         horizon = float(roads.limits[-1])
         self.rest = complete(roads.leg.T, self.gain, size - 1, horizon, _STEPS)
@@ -67,7 +66,7 @@ class _Table:
         room = 1 << 12
         self.words = np.zeros((room, size // _BITS + 1), dtype=np.int64)
         self.time, self.value = np.zeros(room), np.zeros(room)
-        self.links = np.zeros((room, 3), dtype=np.int64)
+        self.links = np.zeros((room, 4), dtype=np.int64)
         self.links[0, _PARENT] = -1
         self.slots = np.full(2 * room, -1, dtype=np.int64)
         self.count = 1
@@ -79,10 +78,10 @@ class _Table:
             at = first
             while at < last:
                 at, self.count = _extend(
-                    self.roads.leg, self.gain, self.roads.limits, self.floors, self.rest.best,
-                    self.rest.before, self.rest.other, self.rest.step, self.code, self.end_code,
-                    self.words, self.time, self.value, self.links, self.slots, self.count,
-                    at, last, _WORK,
+                    self.roads.leg, self.gain, self.in_cut, self.recall, self.sigma,
+                    self.roads.limits, self.floors, self.rest.best, self.rest.before,
+                    self.rest.other, self.rest.step, self.code, self.end_code, self.words,
+                    self.time, self.value, self.links, self.slots, self.count, at, last, _WORK,
                 )  # fmt: skip
                 if clock.expired or self.count > most:
                     return False
@@ -136,6 +135,9 @@ def _visits(words: Ints, size: int) -> csc_array:
 def _extend(
     leg: Floats,
     gain: Floats,
+    in_cut: Ints,
+    recall: Ints,
+    sigma: Floats,
     limits: Floats,
     floors: Floats,
     best: Floats,
@@ -174,10 +176,15 @@ def _extend(
             if t > limits[-1] or words[label, word] & bit:
                 continue
             done += 1
+            cuts = links[label, 3] & recall[j]
+            v = value[label] + gain[j]
+            paid = cuts & in_cut[j]
+            if paid:
+                v -= priced(paid, sigma)
             worthwhile = False
             for c in range(len(limits)):
                 rest = completion_bound(best, before, other, step, limits[c] - t, i, j)
-                if value[label] + rest > floors[c]:
+                if v - gain[j] + rest > floors[c]:
                     worthwhile = True
                     break
             if not worthwhile:
@@ -190,11 +197,11 @@ def _extend(
                 count += 1
                 words[new] = words[label]
                 words[new, word] |= bit
-                value[new] = value[label] + gain[j]
                 links[new, 0], links[new, 2] = j, mixed
                 time[new] = np.inf
             if t < time[new]:
-                time[new], links[new, 1] = t, label
+                time[new], value[new] = t, v
+                links[new, 1], links[new, 3] = label, cuts ^ in_cut[j]
     return last, count
 
 

@@ -39,6 +39,7 @@ __all__ = [
     "PENDING",
     "extend_labels",
     "members_mask",
+    "priced",
 ]
 
 Floats = NDArray[np.float64]
@@ -137,7 +138,7 @@ def extend_labels(
             cuts = masks[label, 1] & recall[j]
             paid = cuts & in_cut[j]
             if paid:
-                v -= _priced(paid, sigma)
+                v -= priced(paid, sigma)
             cuts ^= in_cut[j]
             if not _promising(best, before, other, step, limits, floors, t, v - gain[j], i, j):
                 continue
@@ -171,7 +172,7 @@ def extend_labels(
 
 
 @kernel
-def _priced(cuts: int, sigma: Floats) -> float:
+def priced(cuts: int, sigma: Floats) -> float:
     """Sum of the prices of the cuts in a mask."""
     price = 0.0
     for c in range(len(sigma)):
@@ -231,7 +232,7 @@ def _looks(
                     return -looks
                 if masks[label, 0] & ~mask == 0:
                     ahead = masks[label, 1] & ~cuts
-                    if ahead == 0 or value[label] - _priced(ahead, sigma) >= v:
+                    if ahead == 0 or value[label] - priced(ahead, sigma) >= v:
                         return -looks
             label = links[label, NEXT]
     return looks
@@ -267,7 +268,7 @@ def _replace(
                 worse = mask & ~masks[label, 0] == 0
                 if worse:
                     ahead = cuts & ~masks[label, 1]
-                    worse = ahead == 0 or v - _priced(ahead, sigma) >= value[label]
+                    worse = ahead == 0 or v - priced(ahead, sigma) >= value[label]
             if worse:
                 links[label, KEPT] = 0
                 if last < 0:

@@ -42,10 +42,12 @@ class Master:
         Legs, limits and AUVs.
     clock
         When to stop.
+    required
+        Nodes that must be visited: their rows are equations.
     """
 
-    def __init__(self, roads: Roads, clock: Clock) -> None:
-        self.roads, self._clock = roads, clock
+    def __init__(self, roads: Roads, clock: Clock, required: frozenset[int] = frozenset()) -> None:
+        self.roads, self.required = roads, required
         self.routes: list[Route] = []
         self.classes: list[int] = []
         self._allowed: list[bool] = []
@@ -54,23 +56,24 @@ class Master:
         self.objective = 0.0
         n, count = roads.problem.n, len(roads.limits)
         self._program = Program(clock, maximise=True)
-        above = roads.routes[::-1].cumsum()[::-1]
-        lower = np.full(n + count, -np.inf)
-        if roads.must_detour:
-            lower[n] = above[0]
-        self._program.add_rows(csr_array((n + count, 0)), lower, np.concatenate([np.ones(n), above]))
-        if roads.must_detour:
+        most = np.concatenate([np.ones(n), roads.routes[::-1].cumsum()[::-1]])
+        owed = [node - 1 for node in sorted(required)] + [n] * roads.must_detour
+        least = np.full(n + count, -np.inf)
+        least[owed] = most[owed]
+        self._program.add_rows(csr_array((n + count, 0)), least, most)
+        self._first = len(owed)
+        if owed:
             fine = -_FINE * max(roads.problem.total_profit, 1.0)
-            slack = csc_array(([1.0], ([n], [0])), shape=(n + count, 1))
-            self._program.add_columns([fine], 0.0, np.inf, slack)
-        self._first = int(roads.must_detour)
+            entries = np.ones(len(owed)), (owed, np.arange(len(owed)))
+            slack = csc_array(entries, shape=(n + count, len(owed)))
+            self._program.add_columns(np.full(len(owed), fine), 0.0, np.inf, slack)
 
     def add(self, routes: Iterable[Route]) -> int:
         """Add the routes that are new; return how many."""
         new = []
         for route in routes:
             auv_class = self.roads.class_of(self.roads.duration(route))
-            key = tuple(sorted(route)), auv_class
+            key = self._key(route), auv_class
             if auv_class == len(self.roads.limits) or key in self._known:
                 continue
             self._known.add(key)
@@ -84,12 +87,16 @@ class Master:
             self._program.add_columns(profit, 0.0, np.inf, matrix)
         return len(new)
 
+    def _key(self, route: Route) -> Route:
+        """What makes a route another column: its nodes, and with cuts their order too."""
+        return min(route, route[::-1]) if self.cuts else tuple(sorted(route))
+
     def ban(self, is_banned: Callable[[Route], bool]) -> None:
         """Leave routes out from now on."""
         for k, route in enumerate(self.routes):
             if self._allowed[k] and is_banned(route):
                 self._allowed[k] = False
-                self._known.discard((tuple(sorted(route)), self.classes[k]))
+                self._known.discard((self._key(route), self.classes[k]))
                 self._program.highs.changeColBounds(self._first + k, 0.0, 0.0)
 
     def _columns(self, routes: Sequence[Route], classes: Sequence[int]) -> csc_array:
@@ -150,13 +157,15 @@ class Master:
         n, count = self.roads.problem.n, len(self.roads.limits)
         self.objective = self._program.objective
         self.shares = self._program.values[self._first :]
-        self.fined = self._first > 0 and self._program.values[0] > 1e-9
         duals = self._program.row_duals
-        floor = np.maximum(duals[n : n + count], 0.0)
+        node, floor = duals[:n].copy(), np.maximum(duals[n : n + count], 0.0)
+        free = np.zeros(n, dtype=np.bool_)
+        free[[i - 1 for i in self.required]] = True
+        node[~free] = np.maximum(node[~free], 0.0)
         if self.roads.must_detour:
             floor[0] = duals[n]
         return Duals(
-            np.pad(np.maximum(duals[:n], 0.0), 1),
+            np.pad(node, 1),
             floor.cumsum(),
             tuple(self.cuts),
             np.maximum(duals[n + count :], 0.0),

@@ -105,7 +105,8 @@ def sail_best(
     unit = common_divisor(roads.profit) or float(roads.profit.max()) or 1.0
 
     def offer(values: Floats) -> bool:
-        routes = [pool.route(int(k)) for k in np.flatnonzero(values > 0.5)]
+        times = np.rint(values).astype(np.int64)
+        routes = [pool.route(int(k)) for k in np.repeat(np.arange(len(times)), times)]
         plan = plan_of(roads, routes)
         return plan is not None and incumbent.offer(plan)
 
@@ -119,7 +120,9 @@ def sail_best(
     least = np.full(len(above), -np.inf)
     if roads.must_detour:
         least[0] = above[0]
-    program.add_columns(pool.profit / unit, 0.0, 1.0, integer=True)
+    is_direct = pool.visits.indptr[1:] == pool.visits.indptr[:-1]  # any number of AUVs may sail it
+    most = np.where(is_direct, float(roads.problem.fleet_size), 1.0)
+    program.add_columns(pool.profit / unit, 0.0, most, integer=True)
     nodes = csr_array(pool.visits)[1:-1]
     program.add_rows(
         csr_array(vstack([nodes, needs])),

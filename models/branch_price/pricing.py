@@ -84,6 +84,23 @@ class Duals:
             price=share * self.price + rest * other.price,
         )
 
+    def cut_masks(self) -> tuple[Ints, Ints, Floats]:
+        """Cuts in bits, those of no price left out.
+
+        Returns
+        -------
+        in_cut, recall : Ints
+            The cuts that contain a vertex, and those that remember at it, shape (n + 2,).
+        sigma : Floats
+            Price of the cut of every bit.
+        """
+        in_cut, recall = (np.zeros(len(self.node), dtype=np.int64) for _ in range(2))
+        valued = np.flatnonzero(self.price > 0.0)
+        for bit, k in enumerate(valued.tolist()):
+            in_cut[list(self.cuts[k].nodes)] |= 1 << bit
+            recall[list(self.cuts[k].memory)] |= 1 << bit
+        return in_cut, recall, self.price[valued]
+
     def bound(self, routes: Floats, best: Floats) -> float:
         """Bound on the data of all plans, rounded up.
 
@@ -204,11 +221,7 @@ class _Graph:
         members = np.full((len(nodes), max(int(close.sum(axis=1).max(initial=0)), 1)), -1)
         rows, heads = np.nonzero(close)
         members[rows, place[rows, heads]] = heads
-        in_cut, recall = (np.zeros(len(near), dtype=np.int64) for _ in range(2))
-        priced = np.flatnonzero(duals.price > 0.0)
-        for c, k in enumerate(priced.tolist()):
-            in_cut[list(duals.cuts[k].nodes)] |= 1 << c
-            recall[list(duals.cuts[k].memory)] |= 1 << c
+        in_cut, recall, sigma = duals.cut_masks()
         return cls(
             nodes,
             np.ascontiguousarray(roads.leg[both]),
@@ -217,7 +230,7 @@ class _Graph:
             place.astype(np.int64),
             in_cut[nodes],
             recall[nodes],
-            duals.price[priced],
+            sigma,
         )
 
 

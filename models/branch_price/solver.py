@@ -2,33 +2,37 @@
 
 from __future__ import annotations
 
+import heapq
+import itertools
+
 import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.models.bounds import Effort, quick_bound
-from fiveroute.models.branch_price.column_generation import Relaxation, generate
-from fiveroute.models.branch_price.master import Master
-from fiveroute.models.branch_price.neighbourhoods import grow, is_forgetful, nearest
+from fiveroute.models.branch_price.elementary import enumerate_routes
+from fiveroute.models.branch_price.neighbourhoods import nearest
 from fiveroute.models.branch_price.pool import Pool, sail_best
-from fiveroute.models.branch_price.pricing import Pricer
 from fiveroute.models.branch_price.roads import Roads
+from fiveroute.models.branch_price.subproblem import Branch, Subproblem
 from fiveroute.models.common_divisor import common_divisor, rounded_down
 from fiveroute.models.greedy_plan import greedy_plan
 from fiveroute.models.incumbent import Incumbent
 from fiveroute.models.network import Network
-from fiveroute.plan import Plan, Route
+from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result
 
 __all__ = ["solve", "supports"]
 
-Floats = NDArray[np.float64]
+Booleans = NDArray[np.bool_]
 
 _NEIGHBOURS = 8
-_MOST_NEIGHBOURS = 24
 _TOO_LARGE = 500  # nodes above which a quick bound and a greedy plan are all
 _PLAN_TIME = 3.0  # seconds for a plan over the routes of the master problem
+_FIRST_PARTIAL, _MOST_PARTIAL = 100_000, 3_000_000  # partial routes of an enumeration
+_ROUTES_TO_SAIL = 6_000  # routes among which HiGHS finds the best plan in good time
+_CUT_ROUNDS = 30
 
 
 def supports(problem: TeamOrienteering) -> bool:
@@ -62,8 +66,7 @@ def solve(
         return incumbent.infeasible()
     if incumbent.must_stop:
         return incumbent.result()
-    first = quick_bound(problem, incumbent.clock.rest(), effort=Effort.LEAST)
-    incumbent.lower(first.value)
+    incumbent.lower(quick_bound(problem, incumbent.clock.rest(), effort=Effort.LEAST).value)
     greedy = greedy_plan(problem, problem.profit, incumbent.clock)
     if greedy is not None:
         incumbent.offer(greedy)
@@ -72,70 +75,120 @@ def solve(
     if problem.n > _TOO_LARGE:
         incumbent.lower(quick_bound(problem, incumbent.clock.rest()).value)
         return incumbent.result()
-    search = _Search(Roads.of(network), incumbent)
-    search.run()
-    if search.is_infeasible and incumbent.plan is None:
+    tree = _Tree(Roads.of(network), incumbent)
+    if tree.search() and incumbent.plan is None:
         return incumbent.infeasible()
     return incumbent.result()
 
 
-class _Search:
-    """The parts of one run."""
+class _Tree:
+    """The search tree: subproblems whose bounds are still above the best plan."""
 
     def __init__(self, roads: Roads, incumbent: Incumbent) -> None:
         self.roads, self.incumbent = roads, incumbent
         self.clock = incumbent.clock
-        self.is_infeasible = False
         self.near = nearest(roads, _NEIGHBOURS)
-        self.pricer = Pricer(roads, self.near)
-        self.master = Master(roads, self.clock)
-        self.master.add([()])
-        if incumbent.plan is not None:
-            self.master.add(incumbent.plan.routes)
+        self.step = common_divisor(roads.profit) or 0.0
+        self.partial = _FIRST_PARTIAL
+        self.open: list[tuple[float, int, Branch, Subproblem | None]] = []
+        self.order = itertools.count()
+        self.under_way = -np.inf
 
-    def run(self) -> None:
-        root = self.relax()
-        if root is None or self.incumbent.must_stop or self.is_infeasible:
-            return
-        self.plan_over_known_routes()
+    def search(self) -> bool:
+        """Search until nothing is left or time is up; whether nothing is left."""
+        size = len(self.roads.leg)
+        whole = Branch(np.zeros((size, size), dtype=np.bool_), frozenset())
+        self.push(np.inf, whole, None)
+        while self.open and not self.clock.expired:
+            bound, _, branch, parent = heapq.heappop(self.open)
+            if self.is_low_enough(-bound):
+                continue
+            self.under_way = -bound
+            rest = self.explore(branch, parent)
+            if rest is None:
+                self.under_way = -np.inf
+            elif self.clock.expired or self.incumbent.is_settled:
+                return False
+            else:
+                for child in rest.branches():
+                    self.push(min(-bound, rest.bound), child, rest)
+                self.under_way = -np.inf
+            self.tell()
+        if not self.open:
+            self.lower(-np.inf)
+        return not self.open and not self.clock.expired
 
-    def lower(self, bound: float) -> None:
-        """Report a bound; below zero, it proves that no plan exists."""
-        if bound < 0.0:
-            self.is_infeasible = True
-        self.incumbent.lower(max(rounded_down(bound, self.roads.profit), self.incumbent.objective))
+    def push(self, bound: float, branch: Branch, parent: Subproblem | None) -> None:
+        heapq.heappush(self.open, (-bound, next(self.order), branch, parent))
+
+    def target(self) -> float:
+        """What a better plan collects more than."""
+        return max(self.incumbent.objective, 0.0) + 0.999 * self.step
 
     def is_low_enough(self, bound: float) -> bool:
         """Whether no better plan can be left under a bound."""
-        step = common_divisor(self.roads.profit) or 0.0
-        return bound < self.incumbent.objective + 0.999 * step or self.incumbent.is_settled
+        if self.incumbent.plan is None:
+            return bound < 0.0
+        return bound <= self.incumbent.objective + 0.999 * self.step
 
-    def relax(self) -> Relaxation | None:
-        """The relaxation over ng-routes, its neighbourhoods grown as far as they help."""
-        lowest: Relaxation | None = None
-        while True:
-            relaxation = generate(
-                self.master,
-                self.pricer,
-                self.clock,
-                is_low_enough=self.is_low_enough,
-                on_bound=self.lower,
-            )
-            if relaxation is not None and (lowest is None or relaxation.value < lowest.value):
-                lowest = relaxation
-            if relaxation is None or not relaxation.has_converged or self.incumbent.must_stop:
-                return lowest
-            if not grow(self.near, self.used_routes(), _MOST_NEIGHBOURS):
-                return lowest
-            self.master.ban(lambda route: not is_forgetful(self.near, route))
+    def tell(self) -> None:
+        """Report the bound of all that is open."""
+        first = -self.open[0][0] if self.open else -np.inf
+        self.lower(max(first, self.under_way))
 
-    def used_routes(self) -> list[Route]:
-        """Routes of the last solution of the master problem."""
-        return [self.master.routes[k] for k in np.flatnonzero(self.master.shares > 1e-6)]
+    def on_bound(self, bound: float) -> None:
+        """Note a bound of the subproblem under way."""
+        self.under_way = min(self.under_way, bound)
+        self.tell()
 
-    def plan_over_known_routes(self) -> None:
+    def lower(self, bound: float) -> None:
+        """Report a bound on all plans."""
+        least = max(self.incumbent.objective, 0.0)
+        self.incumbent.lower(max(rounded_down(bound, self.roads.profit), least))
+
+    def explore(self, branch: Branch, parent: Subproblem | None) -> Subproblem | None:
+        """Solve a subproblem as far as cuts and enumeration go; None when it is settled."""
+        here = Subproblem(self.roads, branch, self.near, self.clock, self.is_low_enough)
+        if parent is not None:
+            here.pricer.half = parent.pricer.half
+            here.start_from(parent.master.routes, parent.master.cuts)
+        else:
+            here.start_from(self.incumbent.plan.routes if self.incumbent.plan else [], [])
+        has_converged = here.relax(self.on_bound)
+        if parent is None and has_converged:
+            self.plan_over_known_routes(here)
+        for _ in range(_CUT_ROUNDS):
+            if self.is_low_enough(here.bound):
+                return None
+            if self.clock.expired or self.incumbent.is_settled:
+                return here
+            if self.settle(here):
+                return None
+            if not has_converged or not here.cut(self.on_bound):
+                break
+            self.partial = min(2 * self.partial, _MOST_PARTIAL)
+        return here
+
+    def settle(self, here: Subproblem) -> bool:
+        """Enumerate all routes of better plans, and sail the best of them, if they are few."""
+        if here.relaxation is None:
+            return False
+        pool = enumerate_routes(
+            here.roads, here.relaxation, self.target(), self.clock, self.partial
+        )
+        if pool is None or len(pool) > _ROUTES_TO_SAIL:
+            return False
+        done = sail_best(
+            pool,
+            here.roads,
+            self.incumbent,
+            self.clock,
+            on_bound=lambda bound: self.on_bound(max(bound, self.target())),
+        )
+        return done
+
+    def plan_over_known_routes(self, here: Subproblem) -> None:
         """Look for a plan over the elementary routes that the master problem knows."""
-        routes = [route for route in self.master.routes if len(set(route)) == len(route)]
-        pool = Pool.of(self.roads, routes)
+        routes = [route for route in here.master.routes if len(set(route)) == len(route)]
         clock = self.clock.rest().within(_PLAN_TIME).start()
-        sail_best(pool, self.roads, self.incumbent, clock)
+        sail_best(Pool.of(here.roads, routes), here.roads, self.incumbent, clock)

@@ -1,0 +1,171 @@
+"""A node of the search tree: some legs forbidden, some nodes required."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fiveroute.limits import Clock
+from fiveroute.models.branch_price.column_generation import Relaxation, generate
+from fiveroute.models.branch_price.cuts import MOST_CUTS, separate
+from fiveroute.models.branch_price.master import Master
+from fiveroute.models.branch_price.neighbourhoods import grow, is_forgetful
+from fiveroute.models.branch_price.pricing import Cut, Pricer
+from fiveroute.models.branch_price.roads import Roads
+from fiveroute.plan import Route
+
+__all__ = ["Branch", "Subproblem"]
+
+Floats = NDArray[np.float64]
+Booleans = NDArray[np.bool_]
+
+_MOST_NEIGHBOURS = 24
+_CUTS_AT_ONCE = 20
+_SLOWER = 12.0  # how much longer a pricing with cuts may take than one without
+_QUICK = 2.0  # seconds that a pricing may take in any case
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """What sets a subproblem apart: forbidden legs and required nodes."""
+
+    forbidden: Booleans
+    required: frozenset[int]
+
+
+class Subproblem:
+    """A relaxation with its routes, neighbourhoods and cuts.
+
+    Parameters
+    ----------
+    roads
+        Legs and limits of the whole problem.
+    branch
+        Forbidden legs and required nodes.
+    near
+        Neighbourhoods; they grow in place.
+    clock
+        When to stop.
+    is_low_enough
+        Tells of a bound whether a lower one would be of no use.
+    """
+
+    def __init__(
+        self,
+        roads: Roads,
+        branch: Branch,
+        near: Booleans,
+        clock: Clock,
+        is_low_enough: Callable[[float], bool],
+    ) -> None:
+        self.branch, self.near, self.clock = branch, near, clock
+        self.is_low_enough = is_low_enough
+        self.roads = roads.without(branch.forbidden)
+        self.pricer = Pricer(self.roads, near)
+        self.master = Master(self.roads, clock, branch.required)
+        self.relaxation: Relaxation | None = None
+
+    @property
+    def bound(self) -> float:
+        """The lowest bound so far."""
+        return np.inf if self.relaxation is None else self.relaxation.value
+
+    def start_from(self, routes: Iterable[Route], cuts: list[Cut]) -> None:
+        """Take over routes and cuts."""
+        self.master.add([(), *(r for r in routes if is_forgetful(self.near, r))])
+        if cuts:
+            self.master.add_cuts(cuts)
+
+    def relax(self, on_bound: Callable[[float], None]) -> bool:
+        """Solve the relaxation, growing neighbourhoods as far as they help.
+
+        Returns whether it converged.
+        """
+        while True:
+            relaxation = generate(
+                self.master,
+                self.pricer,
+                self.clock,
+                is_low_enough=self.is_low_enough,
+                on_bound=on_bound,
+            )
+            if relaxation is None:
+                return False
+            if relaxation.value <= self.bound:
+                self.relaxation = relaxation
+            if not relaxation.has_converged or self.is_low_enough(self.bound):
+                return False
+            routes, _ = self.solution()
+            if not grow(self.near, routes, _MOST_NEIGHBOURS):
+                return True
+            self.master.ban(lambda route: not is_forgetful(self.near, route))
+
+    def solution(self) -> tuple[list[Route], Floats]:
+        """Routes of the last solution of the master problem, and their shares."""
+        used = np.flatnonzero(self.master.shares > 1e-6)
+        return [self.master.routes[k] for k in used], self.master.shares[used]
+
+    def cut(self, on_bound: Callable[[float], None]) -> bool:
+        """Add cuts to a relaxation that has converged; whether they lowered the bound."""
+        assert self.relaxation is not None
+        idle = np.flatnonzero(self.relaxation.duals.price <= 1e-9)
+        if len(self.master.cuts) == len(self.relaxation.duals.price):
+            self.master.remove_cuts(idle.tolist())
+        routes, shares = self.solution()
+        room = min(_CUTS_AT_ONCE, MOST_CUTS - len(self.master.cuts))
+        cuts = separate(routes, shares, len(self.near), room)
+        if not cuts:
+            return False
+        self.master.add_cuts(cuts)
+        before = self.bound
+        has_converged = self.relax(on_bound)
+        return has_converged and self.bound < before - 1e-3 * abs(before) * 0.01
+
+    def fractional_node(self) -> int | None:
+        """The node whose visits are the least decided."""
+        routes, shares = self.solution()
+        visits = np.zeros(len(self.near))
+        for route, share in zip(routes, shares, strict=True):
+            visits[list(route)] += share
+        distance = np.abs(visits - 0.5)
+        node = int(distance[1:-1].argmin()) + 1 if len(visits) > 2 else 0
+        return node if node and distance[node] < 0.5 - 1e-4 else None
+
+    def fractional_leg(self) -> tuple[int, int] | None:
+        """The leg whose use is the least decided."""
+        routes, shares = self.solution()
+        use: dict[tuple[int, int], float] = {}
+        end = len(self.near) - 1
+        for route, share in zip(routes, shares.tolist(), strict=True):
+            stops = (0, *route, end)
+            for leg in zip(stops[:-1], stops[1:], strict=True):
+                use[leg] = use.get(leg, 0.0) + share
+        use.pop((0, end), None)
+        leg = min(use, key=lambda leg: (abs(use[leg] - 0.5), leg), default=None)
+        return leg if leg is not None and abs(use[leg] - 0.5) < 0.5 - 1e-4 else None
+
+    def branches(self) -> list[Branch]:
+        """Two subproblems that share all plans of this one between them; none if it is whole."""
+        node = self.fractional_node()
+        if node is not None:
+            idle = self.branch.forbidden.copy()
+            idle[node] = idle[:, node] = True
+            return [
+                Branch(self.branch.forbidden, self.branch.required | {node}),
+                Branch(idle, self.branch.required),
+            ]
+        leg = self.fractional_leg()
+        if leg is None:
+            return []
+        without, only = self.branch.forbidden.copy(), self.branch.forbidden.copy()
+        without[leg] = True
+        ends = {k for k in leg if 0 < k < len(self.near) - 1}
+        if leg[0] in ends:
+            only[leg[0]] = True
+        if leg[1] in ends:
+            only[:, leg[1]] = True
+        only[leg] = self.branch.forbidden[leg]
+        return [Branch(only, self.branch.required | ends), Branch(without, self.branch.required)]
