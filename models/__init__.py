@@ -54,6 +54,7 @@ METHODS: Mapping[str, Method] = MappingProxyType(
         "brute-force": Method("fiveroute.models.brute_force"),
         "circuit": Method("fiveroute.models.circuit"),
         "compact": Method("fiveroute.models.compact"),
+        "enumeration": Method("fiveroute.models.enumeration"),
         "flow": Method("fiveroute.models.flow"),
     }
 )
