@@ -9,7 +9,7 @@ follows when they find nothing, and gives a bound whatever the point is.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,7 @@ Floats = NDArray[np.float64]
 _SMOOTHING = 0.4  # weight of the best multipliers so far
 _ROUTES = 150  # routes that one pricing adds
 _CLOSE = 1e-7  # relative distance of bound and master objective that counts as converged
+_SHARE = 0.02  # or this share of the distance to the target
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,7 +60,7 @@ def generate(
     pricer: Pricer,
     clock: Clock,
     *,
-    is_low_enough: Callable[[float], bool],
+    target: Callable[[], float],
     on_bound: Callable[[float], None],
 ) -> Relaxation | None:
     """Add routes until none is missing, the bound is low enough, or time is up.
@@ -70,8 +71,8 @@ def generate(
         The known routes and where others come from.
     clock
         When to stop.
-    is_low_enough
-        Tells of a bound whether a lower one would be of no use.
+    target
+        Tells which bound is low enough: what a better plan collects more than.
     on_bound
         Told of the bounds.
 
@@ -101,10 +102,10 @@ def generate(
         if relaxation.value < best.value:
             best = relaxation
             on_bound(best.value)
-        close = best.value - master.objective <= _CLOSE * max(1.0, abs(best.value))
-        if close and priced.is_exact:
-            return Relaxation(best.value, best.duals, best.best, has_converged=True)
-        if is_low_enough(best.value):
+        rest = max(_CLOSE * abs(best.value), _SHARE * (best.value - target()))
+        if priced.is_exact and best.value - master.objective <= rest:
+            return replace(best, has_converged=True)
+        if best.value <= target():
             break
         if _added(master, priced, duals):
             smoothing = _SMOOTHING

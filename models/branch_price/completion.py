@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
 
-__all__ = ["Completion", "complete", "completion_bound"]
+__all__ = ["Completion", "complete", "completion_bound", "over_legs"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -174,3 +174,31 @@ def completion_bound(
         return -np.inf
     k = min(int(left / step + 1e-9), len(best) - 1)
     return other[k, j] if before[k, j] == i else best[k, j]
+
+
+@kernel
+def over_legs(leg: Floats, behind: Floats, ahead: Floats, step: float, limit: float) -> Floats:
+    """Most value of two walks that a leg joins within a limit, shape (size, size).
+
+    Parameters
+    ----------
+    leg
+        Leg times in seconds, shape (size, size).
+    behind, ahead
+        Values W of the walks from the start and from the destination, shape (K + 1, size).
+    step
+        h in seconds.
+    limit
+        Longest time in seconds.
+    """
+    size = len(leg)
+    most = np.full((size, size), -np.inf)
+    for i in range(size - 1):
+        for j in range(1, size):
+            left = limit - leg[i, j]
+            if left < 0.0:
+                continue
+            last = min(int(left / step + 1e-9), len(behind) - 1)
+            for k in range(last + 1):
+                most[i, j] = max(most[i, j], behind[k, i] + ahead[last - k, j])
+    return most

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from fiveroute.limits import Clock
 from fiveroute.models.branch_price import labels as lb
-from fiveroute.models.branch_price.completion import Completion, complete
+from fiveroute.models.branch_price.completion import Completion, complete, over_legs
 from fiveroute.models.branch_price.join import join_at, labels_at
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.plan import Route
@@ -41,6 +41,7 @@ _WORK = 3_000_000  # extensions and comparisons between two looks at the clock
 _FIRST_LABELS = 1 << 14
 _SAFE = 1e-9  # share of the terms of a sum that its rounding errors stay far below
 _JOINS = 8  # routes kept for every node at which halves meet
+_WHOLE = 40  # routes kept of those that need no joining
 _BALANCE = 1.3  # ratio of labels of both halves above which the half-way point moves
 _SHIFT = 0.03  # share of the horizon by which it moves
 
@@ -124,7 +125,7 @@ class Priced:
     Parameters
     ----------
     routes
-        Routes worth more than their floor, the best first; ng-routes may come back to a node.
+        Routes worth more than their floor, varied ones first; ng-routes may come back to a node.
     best
         Proven bounds on best_c, shape (C,).
     is_exact
@@ -184,6 +185,17 @@ class Pricer:
         graph = _Graph.of(self.roads, self.roads.profit - duals.node, self.near, duals)
         behind = complete(graph.leg, graph.gain, 0, float(self.roads.limits[-1]), _STEPS)
         return _walk_bounds(behind, self.roads.limits)
+
+    def useless_legs(self, duals: Duals, floors: Floats) -> Booleans:
+        """Legs on no route that is worth more than its floor, by walks, shape (n + 2, n + 2)."""
+        leg, gain = self.roads.leg, self.roads.profit - duals.node
+        horizon = float(self.roads.limits[-1])
+        behind = complete(leg, gain, 0, horizon, _STEPS)
+        ahead = complete(leg.T, gain, len(gain) - 1, horizon, _STEPS)
+        useless = np.ones(leg.shape, dtype=np.bool_)
+        for limit, floor in zip(self.roads.limits.tolist(), floors.tolist(), strict=True):
+            useless &= over_legs(leg, behind.best, ahead.best, behind.step, limit) <= floor
+        return useless
 
     def _balance(self, forward: int, backward: int) -> None:
         if forward > _BALANCE * backward:
@@ -320,13 +332,13 @@ class _Search:
                 )  # fmt: skip
                 if self.clock.expired:
                     return None, self._routes(priced)
-            for k in np.flatnonzero(best > -np.inf):
+            for rank, k in enumerate(np.flatnonzero(best > -np.inf)[::-1]):
                 head, tail = (int(label) for label in pairs[k])
                 path = forward.path(head)[::-1] + backward.path(tail)[1:]
-                priced.append((float(best[k]), path))
+                priced.append((rank, float(best[k]), path))
         return found, self._routes(priced)
 
-    def _whole(self, forward: _Labels, found: Floats) -> list[tuple[float, list[int]]]:
+    def _whole(self, forward: _Labels, found: Floats) -> list[tuple[int, float, list[int]]]:
         """Routes that the labels from the start are by themselves."""
         target = len(self.graph.gain) - 1
         kept = forward.links[: forward.count]
@@ -336,8 +348,12 @@ class _Search:
             value = float(forward.value[label])
             found[auv_class] = max(found[auv_class], value)
             if value > self.floors[auv_class]:
-                priced.append((value, forward.path(int(label))[:0:-1]))
-        return sorted(priced, reverse=True)[: 10 * _JOINS]
+                priced.append((value, int(label)))
+        best = sorted(priced, reverse=True)[:_WHOLE]
+        return [
+            (rank * _JOINS // _WHOLE, value, forward.path(label)[:0:-1])
+            for rank, (value, label) in enumerate(best)
+        ]
 
     def _meetings(
         self, forward: _Labels, backward: _Labels, half: float
@@ -352,7 +368,7 @@ class _Search:
             if a.start < a.stop and b.start < b.stop:
                 yield node, heads[a], tails[b]
 
-    def _routes(self, priced: list[tuple[float, list[int]]]) -> list[Route]:
-        """Routes in the numbers of the problem, the most valuable first."""
-        priced.sort(key=lambda entry: -entry[0])
-        return [tuple(int(k) for k in self.graph.nodes[path]) for _, path in priced]
+    def _routes(self, priced: list[tuple[int, float, list[int]]]) -> list[Route]:
+        """Routes in the numbers of the problem: the best of every node, then the second best."""
+        priced.sort(key=lambda entry: (entry[0], -entry[1]))
+        return [tuple(int(k) for k in self.graph.nodes[path]) for _, _, path in priced]

@@ -30,8 +30,9 @@ Booleans = NDArray[np.bool_]
 _NEIGHBOURS = 8
 _TOO_LARGE = 500  # nodes above which a quick bound and a greedy plan are all
 _PLAN_TIME = 3.0  # seconds for a plan over the routes of the master problem
-_FIRST_PARTIAL, _MOST_PARTIAL = 100_000, 3_000_000  # partial routes of an enumeration
+_FIRST_PARTIAL, _MOST_PARTIAL = 400_000, 3_000_000  # partial routes of an enumeration
 _ROUTES_TO_SAIL = 6_000  # routes among which HiGHS finds the best plan in good time
+_SAFE = 1e-9
 _CUT_ROUNDS = 30
 
 
@@ -123,13 +124,13 @@ class _Tree:
 
     def target(self) -> float:
         """What a better plan collects more than."""
-        return max(self.incumbent.objective, 0.0) + 0.999 * self.step
+        if self.incumbent.plan is None:  # a plan may collect nothing at all
+            return -_SAFE * max(1.0, self.roads.problem.total_profit)
+        return self.incumbent.objective + 0.999 * self.step
 
     def is_low_enough(self, bound: float) -> bool:
         """Whether no better plan can be left under a bound."""
-        if self.incumbent.plan is None:
-            return bound < 0.0
-        return bound <= self.incumbent.objective + 0.999 * self.step
+        return bound <= self.target()
 
     def tell(self) -> None:
         """Report the bound of all that is open."""
@@ -148,7 +149,7 @@ class _Tree:
 
     def explore(self, branch: Branch, parent: Subproblem | None) -> Subproblem | None:
         """Solve a subproblem as far as cuts and enumeration go; None when it is settled."""
-        here = Subproblem(self.roads, branch, self.near, self.clock, self.is_low_enough)
+        here = Subproblem(self.roads, branch, self.near, self.clock, self.target)
         if parent is not None:
             here.pricer.half = parent.pricer.half
             here.start_from(parent.master.routes, parent.master.cuts)

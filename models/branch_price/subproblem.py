@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,8 +49,8 @@ class Subproblem:
         Neighbourhoods; they grow in place.
     clock
         When to stop.
-    is_low_enough
-        Tells of a bound whether a lower one would be of no use.
+    target
+        Tells what a better plan collects more than.
     """
 
     def __init__(
@@ -59,10 +59,9 @@ class Subproblem:
         branch: Branch,
         near: Booleans,
         clock: Clock,
-        is_low_enough: Callable[[float], bool],
+        target: Callable[[], float],
     ) -> None:
-        self.branch, self.near, self.clock = branch, near, clock
-        self.is_low_enough = is_low_enough
+        self.branch, self.near, self.clock, self.target = branch, near, clock, target
         self.roads = roads.without(branch.forbidden)
         self.pricer = Pricer(self.roads, near)
         self.master = Master(self.roads, clock, branch.required)
@@ -89,19 +88,29 @@ class Subproblem:
                 self.master,
                 self.pricer,
                 self.clock,
-                is_low_enough=self.is_low_enough,
+                target=self.target,
                 on_bound=on_bound,
             )
             if relaxation is None:
                 return False
             if relaxation.value <= self.bound:
                 self.relaxation = relaxation
-            if not relaxation.has_converged or self.is_low_enough(self.bound):
+            if not relaxation.has_converged or self.bound <= self.target():
                 return False
+            self.close_roads()
             routes, _ = self.solution()
             if not grow(self.near, routes, _MOST_NEIGHBOURS):
                 return True
             self.master.ban(lambda route: not is_forgetful(self.near, route))
+
+    def close_roads(self) -> None:
+        """Forbid legs that no better plan takes; of no effect on the bound of those that do."""
+        assert self.relaxation is not None
+        floors = self.relaxation.best - (self.relaxation.value - self.target())
+        floors -= 1e-9 * max(1.0, abs(self.relaxation.value))
+        useless = self.pricer.useless_legs(self.relaxation.duals, floors)
+        self.branch = replace(self.branch, forbidden=self.branch.forbidden | useless)
+        self.roads = self.pricer.roads = self.roads.without(useless)
 
     def solution(self) -> tuple[list[Route], Floats]:
         """Routes of the last solution of the master problem, and their shares."""
