@@ -1,14 +1,19 @@
-"""What a partial route can still collect, at most: walks without two-cycles on a time grid.
+"""What a partial route can still collect, at most: walks with a short memory on a time grid.
 
 Divide time into steps of h seconds. With leg times rounded down to whole steps, let
 
-    W(k, j) = most value of a walk from the origin to j that takes at most k steps
-              and never turns straight back, i -> j -> i.
+    W(k, j, s) = most value of a walk from the origin to j that takes at most k steps
+                 and remembers at j the set s of j's nearest nodes.
 
-It takes O(K n^2) by dynamic programming over k (N. Christofides, A. Mingozzi and P. Toth,
-"Exact algorithms for the vehicle routing problem", Mathematical Programming 20 (1981),
-doi 10.1007/BF01589353). Walks from the destination over the reversed legs bound how a route from
-the start can be completed, and the other way round.
+A walk remembers a node while it stays among nodes that have it nearby, and does not come back
+to what it remembers: ng-routes with small neighbourhoods. W follows by dynamic programming over k
+(N. Christofides, A. Mingozzi and P. Toth, "Exact algorithms for the vehicle routing problem",
+Mathematical Programming 20 (1981), doi 10.1007/BF01589353, with the memory of R. Baldacci, A.
+Mingozzi and R. Roberti 2011, doi 10.1287/opre.1110.0975). Walks from the destination over the
+reversed legs bound how a route from the start can be completed, and the other way round; a route
+that has visited the near nodes m goes on with a walk that remembers none of them,
+
+    C(k, j, m) = max of W(k, j, s) over all s without a node of m.
 
 A walk may go round and round over legs of no whole step. So nodes joined by such legs form
 a cluster, and who enters it is granted all that a route can collect there, once: more than any
@@ -34,27 +39,32 @@ _ROUNDING = 1e-9  # share of a step by which remaining time is rounded up
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Completion:
-    """Values W of the best walks; minus infinity where there is none.
+    """Values C of the best walks; minus infinity where there is none.
 
     Parameters
     ----------
-    best
-        W(k, j), shape (K + 1, size).
-    before
-        Node before j on that walk, shape (K + 1, size); -1 where it may be any.
-    other
-        The most value with another node before j, shape (K + 1, size).
+    value
+        C(k, j, m), shape (K + 1, size, 2 ** q).
+    nearest
+        The q nodes that bit 0, 1, ... of m stand for, shape (size, q); -1 beyond the last.
     step
         h in seconds.
     """
 
-    best: Floats
-    before: Ints
-    other: Floats
+    value: Floats
+    nearest: Ints
     step: float
 
+    def of_routes(self, limits: Floats, end: int) -> Floats:
+        """Most value of a walk to the other end, for every limit."""
+        steps = np.minimum((limits / self.step + _ROUNDING).astype(np.int64), len(self.value) - 1)
+        bounds: Floats = self.value[steps, end, 0]
+        return bounds
 
-def complete(leg: Floats, gain: Floats, origin: int, horizon: float, steps: int) -> Completion:
+
+def complete(
+    leg: Floats, gain: Floats, origin: int, horizon: float, steps: int, memory: int
+) -> Completion:
     """Compute all walks from an origin.
 
     Parameters
@@ -70,17 +80,29 @@ def complete(leg: Floats, gain: Floats, origin: int, horizon: float, steps: int)
         Longest time in seconds.
     steps
         K.
+    memory
+        q.
     """
     step = (horizon or 1.0) / steps
     whole = np.full(leg.shape, steps + 1, dtype=np.int64)
     finite = leg <= horizon * (1.0 + _ROUNDING)
     whole[finite] = np.floor(leg[finite] / step * (1.0 - _ROUNDING)).astype(np.int64)
-    shape = (steps + 1, len(leg))
-    best, other = np.full(shape, -np.inf), np.full(shape, -np.inf)
-    before = np.full(shape, -1, dtype=np.int64)
-    cluster = _clusters(whole)
-    _walk(np.ascontiguousarray(whole.T), gain, origin, cluster, best, before, other)
-    return Completion(best, before, other, step)
+    nearest = _nearest(leg, memory)
+    value = np.full((steps + 1, len(leg), 1 << memory), -np.inf)
+    _walk(whole, gain, origin, _clusters(whole), _carry(nearest), value)
+    return Completion(value, nearest, step)
+
+
+def _nearest(leg: Floats, memory: int) -> Ints:
+    """The nodes nearest to every node in either direction, shape (size, memory)."""
+    there = np.minimum(leg, leg.T)
+    there[[0, -1]] = there[:, [0, -1]] = np.inf
+    np.fill_diagonal(there, np.inf)
+    nearest = np.full((len(leg), memory), -1, dtype=np.int64)
+    order = np.argsort(there, axis=1, kind="stable")[:, :memory]
+    near = np.isfinite(np.take_along_axis(there, order, axis=1))
+    nearest[:, : order.shape[1]] = np.where(near, order, -1)
+    return nearest
 
 
 def _clusters(whole: Ints) -> Ints:
@@ -97,83 +119,112 @@ def _clusters(whole: Ints) -> Ints:
 
 
 @kernel
+def _carry(nearest: Ints) -> Ints:
+    """What a walk remembers at j that comes from i with s; -1 if it may not go there.
+
+    Shape (size, size, 2 ** q), for j, i, s.
+    """
+    size, memory = nearest.shape
+    carry = np.zeros((size, size, 1 << memory), np.int64)
+    for j in range(size):
+        for i in range(size):
+            kept = np.zeros(memory, np.int64)
+            barred, passed = 0, 0
+            for b in range(memory):
+                if nearest[i, b] == j:
+                    barred = 1 << b
+                if nearest[j, b] == i:
+                    passed = 1 << b
+                for a in range(memory):
+                    if nearest[i, b] >= 0 and nearest[j, a] == nearest[i, b]:
+                        kept[b] = 1 << a
+            for s in range(1 << memory):
+                if s & barred:
+                    carry[j, i, s] = -1
+                    continue
+                carry[j, i, s] = passed
+                for b in range(memory):
+                    if s >> b & 1:
+                        carry[j, i, s] |= kept[b]
+    return carry
+
+
+@kernel
 def _walk(
-    whole: Ints,
-    gain: Floats,
-    origin: int,
-    cluster: Ints,
-    best: Floats,
-    before: Ints,
-    other: Floats,
+    whole: Ints, gain: Floats, origin: int, cluster: Ints, carry: Ints, value: Floats
 ) -> None:
-    """Fill `best`, `before` and `other`; `whole[j, i]` is the leg from i to j in steps."""
+    """Fill `value`; `whole[i, j]` is the leg from i to j in steps."""
     size = len(gain)
     target = size - 1 - origin
     clustered = np.zeros(size, np.bool_)
-    for i in range(1, size - 1):
-        if cluster[i] != i:
-            clustered[i] = clustered[cluster[i]] = True
-    worth = np.zeros(size)
+    worth, entry = np.zeros(size), np.empty(size)
     for i in range(1, size - 1):
         worth[cluster[i]] += max(gain[i], 0.0)
-    entry = np.empty(size)
-    for k in range(len(best)):
-        best[k, origin] = 0.0
+        if cluster[i] != i:
+            clustered[i] = clustered[cluster[i]] = True
+    tails = np.empty((size, size), np.int64)
+    count = np.zeros(size, np.int64)
+    for j in range(size):
+        for i in range(size):
+            usable = whole[i, j] < len(value) and i != j and i != target and j != origin
+            if usable and (whole[i, j] > 0 or i == origin or j == target):
+                tails[j, count[j]] = i
+                count[j] += 1
+    for k in range(len(value)):
+        value[k, origin, 0] = 0.0
         for j in range(1, size - 1):
-            _arrive(whole, gain, origin, j, k, best, before, other)
+            _arrive(whole, gain, tails[j, : count[j]], carry, j, k, value)
         entry[:] = -np.inf
         for j in range(1, size - 1):
             if clustered[j]:
-                at_door = best[k, j] - max(gain[j], 0.0)
+                at_door = value[k, j].max() - max(gain[j], 0.0)
                 entry[cluster[j]] = max(entry[cluster[j]], at_door)
         for j in range(1, size - 1):
             if clustered[j]:
-                best[k, j] = other[k, j] = entry[cluster[j]] + worth[cluster[j]]
-                before[k, j] = -1
-        _arrive(whole, gain, origin, target, k, best, before, other)
+                value[k, j, 0] = entry[cluster[j]] + worth[cluster[j]]
+        _arrive(whole, gain, tails[target, : count[target]], carry, target, k, value)
+    for k in range(len(value)):
+        for j in range(size):
+            _forget(value[k, j])
 
 
 @kernel
 def _arrive(
-    whole: Ints,
-    gain: Floats,
-    origin: int,
-    j: int,
-    k: int,
-    best: Floats,
-    before: Ints,
-    other: Floats,
+    whole: Ints, gain: Floats, tails: Ints, carry: Ints, j: int, k: int, value: Floats
 ) -> None:
-    """Best and second-best walks to j within k steps; zero-step legs count at the ends only."""
-    size = len(gain)
-    first, second, tail = -np.inf, -np.inf, -1
-    at_end = j == size - 1 - origin
-    for i in range(size):
-        steps = whole[j, i]
-        if steps > k or i == j or i == size - 1 - origin:
+    """Best walks to j within k steps, for every memory."""
+    for i in tails:
+        before = k - whole[i, j]
+        if before < 0:
             continue
-        if steps == 0 and i != origin and not at_end:
-            continue
-        value = other[k - steps, i] if before[k - steps, i] == j else best[k - steps, i]
-        value += gain[j]
-        if i == tail:
-            first = max(first, value)
-        elif value > first:
-            second, first, tail = first, value, i
-        elif value > second:
-            second = value
-    best[k, j], other[k, j], before[k, j] = first, second, tail
+        for s in range(value.shape[2]):
+            known = value[before, i, s]
+            if known > -np.inf:
+                kept = carry[j, i, s]
+                if kept >= 0:
+                    value[k, j, kept] = max(value[k, j, kept], known + gain[j])
 
 
 @kernel
-def completion_bound(
-    best: Floats, before: Ints, other: Floats, step: float, left: float, i: int, j: int
-) -> float:
-    """Most value of a walk to j within `left` seconds that does not come over i."""
+def _forget(values: Floats) -> None:
+    """From the best walk for every memory to the best that remembers none of a set, in place."""
+    size = len(values)
+    bit = 1
+    while bit < size:
+        for s in range(size):
+            if s & bit:
+                values[s] = max(values[s], values[s ^ bit])
+        bit *= 2
+    for s in range(size // 2):
+        values[s], values[size - 1 - s] = values[size - 1 - s], values[s]
+
+
+@kernel
+def completion_bound(value: Floats, step: float, left: float, j: int, known: int) -> float:
+    """Most value of a walk to j within `left` seconds that remembers nothing of `known`."""
     if left < 0.0:
         return -np.inf
-    k = min(int(left / step + 1e-9), len(best) - 1)
-    return other[k, j] if before[k, j] == i else best[k, j]
+    return value[min(int(left / step + 1e-9), len(value) - 1), j, known]
 
 
 @kernel
@@ -185,7 +236,7 @@ def over_legs(leg: Floats, behind: Floats, ahead: Floats, step: float, limit: fl
     leg
         Leg times in seconds, shape (size, size).
     behind, ahead
-        Values W of the walks from the start and from the destination, shape (K + 1, size).
+        Values C of the walks from the start and from the destination.
     step
         h in seconds.
     limit
@@ -200,5 +251,5 @@ def over_legs(leg: Floats, behind: Floats, ahead: Floats, step: float, limit: fl
                 continue
             last = min(int(left / step + 1e-9), len(behind) - 1)
             for k in range(last + 1):
-                most[i, j] = max(most[i, j], behind[k, i] + ahead[last - k, j])
+                most[i, j] = max(most[i, j], behind[k, i, 0] + ahead[last - k, j, 0])
     return most

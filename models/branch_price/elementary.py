@@ -21,8 +21,8 @@ from scipy.sparse import csc_array
 from fiveroute.kernels import kernel
 from fiveroute.limits import Clock
 from fiveroute.models.branch_price.column_generation import Relaxation
-from fiveroute.models.branch_price.completion import complete, completion_bound
-from fiveroute.models.branch_price.labels import priced
+from fiveroute.models.branch_price.completion import complete
+from fiveroute.models.branch_price.labels import priced, promising
 from fiveroute.models.branch_price.pool import Pool
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.plan import Route
@@ -33,7 +33,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _BITS = 62  # nodes in a word
-_STEPS = 1000
+_STEPS, _MEMORY = 1000, 5  # of the completion bounds
 _WORK = 400_000  # extensions between two looks at the clock
 _END, _PARENT, _HASH, _CUTS = 0, 1, 2, 3
 
@@ -59,7 +59,7 @@ class _Table:
         self.in_cut, self.recall, self.sigma = relaxation.duals.cut_masks()
         self.floors = relaxation.best - gap
         horizon = float(roads.limits[-1])
-        self.rest = complete(roads.leg.T, self.gain, size - 1, horizon, _STEPS)
+        self.rest = complete(roads.leg.T, self.gain, size - 1, horizon, _STEPS, _MEMORY)
         rng = np.random.default_rng(0)
         self.code = rng.integers(1, 1 << 62, size=size)
         self.end_code = rng.integers(1, 1 << 62, size=size)
@@ -79,8 +79,8 @@ class _Table:
             while at < last:
                 at, self.count = _extend(
                     self.roads.leg, self.gain, self.in_cut, self.recall, self.sigma,
-                    self.roads.limits, self.floors, self.rest.best, self.rest.before,
-                    self.rest.other, self.rest.step, self.code, self.end_code, self.words,
+                    self.roads.limits, self.floors, self.rest.value, self.rest.nearest,
+                    self.rest.step, self.code, self.end_code, self.words,
                     self.time, self.value, self.links, self.slots, self.count, at, last, _WORK,
                 )  # fmt: skip
                 if clock.expired or self.count > most:
@@ -140,9 +140,8 @@ def _extend(
     sigma: Floats,
     limits: Floats,
     floors: Floats,
-    best: Floats,
-    before: Ints,
-    other: Floats,
+    rest: Floats,
+    nearest: Ints,
     step: float,
     code: Ints,
     end_code: Ints,
@@ -181,13 +180,12 @@ def _extend(
             paid = cuts & in_cut[j]
             if paid:
                 v -= priced(paid, sigma)
-            worthwhile = False
-            for c in range(len(limits)):
-                rest = completion_bound(best, before, other, step, limits[c] - t, i, j)
-                if v - gain[j] + rest > floors[c]:
-                    worthwhile = True
-                    break
-            if not worthwhile:
+            known = 0
+            for b in range(nearest.shape[1]):
+                k = nearest[j, b]
+                if k >= 0 and words[label, k // 62] >> (k % 62) & 1:
+                    known |= 1 << b
+            if not promising(rest, step, limits, floors, t, v - gain[j], j, known):
                 continue
             mixed = links[label, 2] ^ code[j]
             slot = _find(words, links, slots, words[label], word, bit, mixed, j, end_code[j])

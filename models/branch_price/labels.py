@@ -40,6 +40,7 @@ __all__ = [
     "extend_labels",
     "members_mask",
     "priced",
+    "promising",
 ]
 
 Floats = NDArray[np.float64]
@@ -79,9 +80,8 @@ def extend_labels(
     in_cut: Ints,
     recall: Ints,
     sigma: Floats,
-    best: Floats,
-    before: Ints,
-    other: Floats,
+    rest: Floats,
+    nearest: Ints,
     step: float,
     limits: Floats,
     floors: Floats,
@@ -140,11 +140,12 @@ def extend_labels(
             if paid:
                 v -= priced(paid, sigma)
             cuts ^= in_cut[j]
-            if not _promising(best, before, other, step, limits, floors, t, v - gain[j], i, j):
-                continue
             mask = 0
             if j != target:
                 mask = members_mask(masks[label, 0], members[i], place[j], j)
+            known = _near_of(mask, nearest[j])
+            if not promising(rest, step, limits, floors, t, v - gain[j], j, known):
+                continue
             bucket = min(int(t / width), buckets - 1)
             if j != target:
                 looks = _looks(
@@ -182,22 +183,29 @@ def priced(cuts: int, sigma: Floats) -> float:
 
 
 @kernel
-def _promising(
-    best: Floats,
-    before: Ints,
-    other: Floats,
+def _near_of(mask: int, places: Ints) -> int:
+    """The bits of a memory at some places, those at -1 left out."""
+    known = 0
+    for b in range(len(places)):
+        if places[b] >= 0:
+            known |= (mask >> places[b] & 1) << b
+    return known
+
+
+@kernel
+def promising(
+    rest: Floats,
     step: float,
     limits: Floats,
     floors: Floats,
     t: float,
     v: float,
-    i: int,
     j: int,
+    known: int,
 ) -> bool:
     """Whether some completion may be worth more than the floor of some class of AUVs."""
     for c in range(len(limits)):
-        rest = completion_bound(best, before, other, step, limits[c] - t, i, j)
-        if v + rest > floors[c]:
+        if v + completion_bound(rest, step, limits[c] - t, j, known) > floors[c]:
             return True
     return False
 
@@ -227,7 +235,7 @@ def _looks(
         label = first[node, b]
         while label >= 0:
             looks += 1
-            if value[label] >= v and time[label] <= t and links[label, KEPT]:
+            if value[label] >= v and time[label] <= t:
                 if not exact:
                     return -looks
                 if masks[label, 0] & ~mask == 0:

@@ -36,6 +36,7 @@ Ints = NDArray[np.int64]
 Booleans = NDArray[np.bool_]
 
 _STEPS = 500  # of the completion bounds
+_MEMORY, _QUICK_MEMORY = 5, 2  # nodes that the walks of exact and of quick pricing remember
 _BUCKETS = 64
 _WORK = 3_000_000  # extensions and comparisons between two looks at the clock
 _FIRST_LABELS = 1 << 14
@@ -159,15 +160,17 @@ class Pricer:
         gain = self.roads.profit - duals.node
         graph = _Graph.of(self.roads, gain, self.near, duals)
         horizon = float(self.roads.limits[-1])
-        ahead = complete(graph.leg.T, graph.gain, len(graph.gain) - 1, horizon, _STEPS)
-        behind = complete(graph.leg, graph.gain, 0, horizon, _STEPS)
-        walks = _walk_bounds(behind, self.roads.limits)
+        memory = _MEMORY if exact else _QUICK_MEMORY
+        end = len(graph.gain) - 1
+        behind = complete(graph.leg, graph.gain, 0, horizon, _STEPS, memory)
+        ahead = complete(graph.leg.T, graph.gain, end, horizon, _STEPS, memory)
+        walks = behind.of_routes(self.roads.limits, end)
         floor = np.nextafter(duals.floor, np.inf)
         if (walks <= floor).all():
             return Priced([], walks, True)
         half = self.half * horizon
         search = _Search(graph, self.roads.limits, floor, exact, clock, self.most_labels)
-        forward, backward = search.start(0), search.start(len(graph.gain) - 1)
+        forward, backward = search.start(0), search.start(end)
         done = search.grow(forward, graph.leg, ahead, half)
         done = done and search.grow(backward, graph.leg.T.copy(), behind, horizon - half)
         self.labels = forward.count + backward.count
@@ -183,18 +186,19 @@ class Pricer:
     def walk_bound(self, duals: Duals) -> Floats:
         """Bounds on best_c from walks alone."""
         graph = _Graph.of(self.roads, self.roads.profit - duals.node, self.near, duals)
-        behind = complete(graph.leg, graph.gain, 0, float(self.roads.limits[-1]), _STEPS)
-        return _walk_bounds(behind, self.roads.limits)
+        horizon = float(self.roads.limits[-1])
+        behind = complete(graph.leg, graph.gain, 0, horizon, _STEPS, _MEMORY)
+        return behind.of_routes(self.roads.limits, len(graph.gain) - 1)
 
     def useless_legs(self, duals: Duals, floors: Floats) -> Booleans:
         """Legs on no route that is worth more than its floor, by walks, shape (n + 2, n + 2)."""
         leg, gain = self.roads.leg, self.roads.profit - duals.node
         horizon = float(self.roads.limits[-1])
-        behind = complete(leg, gain, 0, horizon, _STEPS)
-        ahead = complete(leg.T, gain, len(gain) - 1, horizon, _STEPS)
+        behind = complete(leg, gain, 0, horizon, _STEPS, _MEMORY)
+        ahead = complete(leg.T, gain, len(gain) - 1, horizon, _STEPS, _MEMORY)
         useless = np.ones(leg.shape, dtype=np.bool_)
         for limit, floor in zip(self.roads.limits.tolist(), floors.tolist(), strict=True):
-            useless &= over_legs(leg, behind.best, ahead.best, behind.step, limit) <= floor
+            useless &= over_legs(leg, behind.value, ahead.value, behind.step, limit) <= floor
         return useless
 
     def _balance(self, forward: int, backward: int) -> None:
@@ -202,13 +206,6 @@ class Pricer:
             self.half = max(self.half - _SHIFT, 0.2)
         elif backward > _BALANCE * forward:
             self.half = min(self.half + _SHIFT, 0.8)
-
-
-def _walk_bounds(walks: Completion, limits: Floats) -> Floats:
-    """Most value of a walk from the start to the destination, for every class."""
-    steps = np.minimum((limits / walks.step + 1e-9).astype(np.int64), len(walks.best) - 1)
-    bounds: Floats = walks.best[steps, -1]
-    return bounds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -300,10 +297,12 @@ class _Search:
     def grow(self, side: _Labels, leg: Floats, rest: Completion, half: float) -> bool:
         """Grow all labels up to `half`; return whether that came to an end."""
         graph = self.graph
+        places = np.take_along_axis(graph.place, np.maximum(rest.nearest, 0), axis=1)
+        places = np.where(rest.nearest >= 0, places, -1)
         while True:
             outcome = lb.extend_labels(
                 leg, graph.gain, graph.members, graph.place, graph.in_cut, graph.recall,
-                graph.sigma, rest.best, rest.before, rest.other, rest.step, self.limits,
+                graph.sigma, rest.value, places, rest.step, self.limits,
                 self.floors, half, self.exact, self.scale, side.time, side.value, side.masks,
                 side.links, side.first, side.top, side.waiting, side.state, _WORK,
             )  # fmt: skip
