@@ -35,6 +35,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _ROUNDING = 1e-9  # share of a step by which remaining time is rounded up
+_MOST_WORK = 300_000_000  # steps of the dynamic programme, some tenths of a second
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,8 +82,10 @@ def complete(
     steps
         K.
     memory
-        q.
+        q; less where there are so many vertices that it would take long.
     """
+    while memory and steps * leg.size << memory > _MOST_WORK:
+        memory -= 1
     step = (horizon or 1.0) / steps
     whole = np.full(leg.shape, steps + 1, dtype=np.int64)
     finite = leg <= horizon * (1.0 + _ROUNDING)

@@ -12,7 +12,7 @@ from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.models.bounds import Effort, quick_bound
 from fiveroute.models.branch_price.elementary import enumerate_routes
 from fiveroute.models.branch_price.neighbourhoods import nearest
-from fiveroute.models.branch_price.pool import Pool, sail_best
+from fiveroute.models.branch_price.pool import Pool, plan_of, sail_best
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.models.branch_price.subproblem import Branch, Subproblem
 from fiveroute.models.common_divisor import common_divisor, rounded_down
@@ -93,14 +93,14 @@ class _Tree:
         self.partial = _FIRST_PARTIAL
         self.open: list[tuple[float, int, Branch, Subproblem | None]] = []
         self.order = itertools.count()
-        self.under_way = -np.inf
+        self.under_way = self.stuck = -np.inf
 
     def search(self) -> bool:
         """Search until nothing is left or time is up; whether nothing is left."""
         size = len(self.roads.leg)
         whole = Branch(np.zeros((size, size), dtype=np.bool_), frozenset())
         self.push(np.inf, whole, None)
-        while self.open and not self.clock.expired:
+        while self.open and not self.incumbent.must_stop:
             bound, _, branch, parent = heapq.heappop(self.open)
             if self.is_low_enough(-bound):
                 continue
@@ -111,13 +111,30 @@ class _Tree:
             elif self.clock.expired or self.incumbent.is_settled:
                 return False
             else:
-                for child in rest.branches():
-                    self.push(min(-bound, rest.bound), child, rest)
+                self.branch(rest, min(-bound, rest.bound))
                 self.under_way = -np.inf
             self.tell()
-        if not self.open:
-            self.lower(-np.inf)
-        return not self.open and not self.clock.expired
+        return not self.open and not self.clock.expired and self.stuck == -np.inf
+
+    def branch(self, here: Subproblem, bound: float) -> None:
+        """Divide a subproblem, or take its plan where there is nothing to divide."""
+        while not self.is_low_enough(bound):
+            children = here.branches()
+            for child in children:
+                self.push(bound, child, here)
+            if children or self.clock.expired:
+                break
+            plan = plan_of(self.roads, here.whole_routes())
+            if plan is not None:
+                self.incumbent.offer(plan)
+            here.relax(self.on_bound)  # with a better plan it converges further
+            if here.bound >= bound:
+                break
+            bound = here.bound
+        else:
+            return
+        if not children:
+            self.stuck = max(self.stuck, bound)
 
     def push(self, bound: float, branch: Branch, parent: Subproblem | None) -> None:
         heapq.heappush(self.open, (-bound, next(self.order), branch, parent))
@@ -135,7 +152,7 @@ class _Tree:
     def tell(self) -> None:
         """Report the bound of all that is open."""
         first = -self.open[0][0] if self.open else -np.inf
-        self.lower(max(first, self.under_way))
+        self.lower(max(first, self.under_way, self.stuck))
 
     def on_bound(self, bound: float) -> None:
         """Note a bound of the subproblem under way."""

@@ -133,6 +133,12 @@ class Subproblem:
         has_converged = self.relax(on_bound)
         return has_converged and self.bound < before - 1e-3 * abs(before) * 0.01
 
+    def whole_routes(self) -> list[Route]:
+        """Routes that the last solution sails, each as often as it does; shares are rounded."""
+        routes, shares = self.solution()
+        times = np.rint(shares).astype(np.int64).tolist()
+        return [route for route, k in zip(routes, times, strict=True) for _ in range(k)]
+
     def fractional_node(self) -> int | None:
         """The node whose visits are the least decided."""
         routes, shares = self.solution()
