@@ -1,8 +1,8 @@
 r"""Complete enumeration: every node set that one AUV can take, then the best choice of them.
 
 For every set S of nodes and every last node k the least time d(S, k) follows from smaller sets as
-in `fiveroute.models.brute_force`, but only sets within reach are kept: those from whose last node the
-destination can still be reached in time. With the quickest route of every set known, the problem is
+in `fiveroute.models.brute_force`, but only sets within reach are kept: those from whose last node
+the destination can still be reached in time. With the quickest route of every set, the problem is
 
     max  sum_i rho_i y_i
     s.t. y_i <= sum over S with i in S of lambda_S <= 1     for every sensor node i
@@ -208,12 +208,12 @@ class _Choice:
                 used = classes < _least_class_above(words, *longer, self.problem.n)
             longer = words, classes
             sets.append((np.full(used.sum(), depth), places[used], classes[used], words[used]))
-        depth, places, classes, words = (
+        depths, places, classes, words = (
             np.concatenate([part[k] for part in sets]) for k in range(4)
         )
         node = np.arange(1, self.problem.n + 1)
         member = words[:, node // _BITS] >> (node % _BITS) & 1
-        return np.column_stack([depth, places]), classes, csr_array(member.T.astype(np.float64))
+        return np.column_stack([depths, places]), classes, csr_array(member.T.astype(np.float64))
 
     def _build(self, classes: Ints, visits: csr_array) -> None:
         n, count = visits.shape
@@ -242,7 +242,9 @@ class _Choice:
         chosen = np.repeat(np.arange(len(times)), times)
         if len(chosen) > self.problem.fleet_size:
             return
-        routes = sorted((self._route(k) for k in chosen), key=self.problem.duration, reverse=True)
+        routes = sorted(
+            (self._route(int(k)) for k in chosen), key=self.problem.duration, reverse=True
+        )
         plan: list[Route] = [()] * self.problem.fleet_size
         visited: set[int] = set()
         auvs = np.argsort(-self.problem.budgets, kind="stable").tolist()

@@ -38,6 +38,11 @@ class Incumbent:
         A plan to start from; one that the judge rejects is left aside.
     progress
         Told of every improvement.
+
+    Attributes
+    ----------
+    note
+        What to add to the method's name when progress is told.
     """
 
     def __init__(
@@ -54,6 +59,7 @@ class Incumbent:
         self.plan: Plan | None = None
         self.objective = -math.inf
         self.bound = problem.total_profit
+        self.note = ""
         self._progress = progress
         self._lock = threading.RLock()
         self.offer(Plan.empty(problem.fleet_size))
@@ -117,4 +123,5 @@ class Incumbent:
     def _tell(self) -> None:
         if self._progress is not None:
             objective = None if self.plan is None else self.objective
-            self._progress(Progress(self.clock.seconds, objective, self.bound, self.method))
+            message = f"{self.method} {self.note}" if self.note else self.method
+            self._progress(Progress(self.clock.seconds, objective, self.bound, message))

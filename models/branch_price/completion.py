@@ -34,7 +34,7 @@ __all__ = ["Completion", "complete", "completion_bound", "over_legs"]
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-_ROUNDING = 1e-9  # share of a step by which remaining time is rounded up
+_ROUNDING = 1e-9  # share of a step by which remaining time is rounded up; legs by far less
 _MOST_WORK = 300_000_000  # steps of the dynamic programme, some tenths of a second
 
 
@@ -89,7 +89,7 @@ def complete(
     step = (horizon or 1.0) / steps
     whole = np.full(leg.shape, steps + 1, dtype=np.int64)
     finite = leg <= horizon * (1.0 + _ROUNDING)
-    whole[finite] = np.floor(leg[finite] / step * (1.0 - _ROUNDING)).astype(np.int64)
+    whole[finite] = np.floor(leg[finite] / step + _ROUNDING / 1e3).astype(np.int64)
     nearest = _nearest(leg, memory)
     value = np.full((steps + 1, len(leg), 1 << memory), -np.inf)
     _walk(whole, gain, origin, _clusters(whole), _carry(nearest), value)
@@ -227,7 +227,9 @@ def completion_bound(value: Floats, step: float, left: float, j: int, known: int
     """Most value of a walk to j within `left` seconds that remembers nothing of `known`."""
     if left < 0.0:
         return -np.inf
-    return value[min(int(left / step + 1e-9), len(value) - 1), j, known]
+    k = min(int(left / step + 1e-9), len(value) - 1)
+    best: float = value[k, j, known]
+    return best
 
 
 @kernel

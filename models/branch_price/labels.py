@@ -62,7 +62,7 @@ _EPS_TIME, _EPS_VALUE = 1e-13, 1e-13  # relative differences that are rounding, 
 @kernel
 def members_mask(mask: int, members: Ints, place: Ints, node: int) -> int:
     """What a label that remembers `mask`, places in `members`, remembers at the next node."""
-    new = 1 << place[node]
+    new: int = 1 << place[node]
     for b in range(len(members)):
         if members[b] < 0:
             break
@@ -126,7 +126,7 @@ def extend_labels(
         for j in range(1, size):
             if j == size - 1:
                 j = target
-            if j == i or j == origin or (j == target and origin > 0):
+            if j in (i, origin) or (j == target and origin > 0):
                 continue
             t = time[label] + leg[i, j]
             if t > horizon:

@@ -123,7 +123,7 @@ class Master:
         """What route k is worth beyond its floor."""
         visits = list(self.routes[k])
         value = float((self.roads.profit[visits] - duals.node[visits]).sum())
-        paid = sum(
+        paid: float = sum(
             price * coefficient(self.routes[k], cut)
             for cut, price in zip(duals.cuts, duals.price.tolist(), strict=True)
             if price > 0.0
@@ -181,4 +181,3 @@ def coefficient(route: Route, cut: Cut) -> int:
         elif node in cut.nodes:
             taken, half = taken + half, 1 - half
     return taken
-

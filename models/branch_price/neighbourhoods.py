@@ -3,8 +3,8 @@
 N_i starts as the nodes next to i. Where the linear programme uses a route that comes back to a node
 v, v joins the neighbourhoods of all nodes in between, which forbids that cycle for ever
 (R. Roberti and A. Mingozzi 2014, doi 10.1287/trsc.2013.0474, in the dynamic form of Baldacci et
-al. 2011). Nodes joined by legs of next to no time always remember each other: a route could go round
-in circles there without end.
+al. 2011). Nodes joined by legs of next to no time always remember each other: a route could go
+round in circles there without end.
 """
 
 from __future__ import annotations

@@ -1,6 +1,5 @@
 r"""The best plan over a pool of known routes.
 
-
     max  sum_r rho_r lambda_r    s.t. node and fleet rows of `fiveroute.models.branch_price.master`,
     lambda binary,
 
@@ -63,7 +62,8 @@ class Pool:
             shape=(len(roads.leg), len(routes)),
         )
         classes = np.array([roads.class_of(roads.duration(r)) for r in routes], dtype=np.int64)
-        return cls(visits, classes, visits.T @ roads.profit, routes.__getitem__)
+        profit = np.asarray(visits.T @ roads.profit)
+        return cls(visits, classes, profit, routes.__getitem__)
 
     def __len__(self) -> int:
         return len(self.profit)
@@ -114,7 +114,10 @@ def sail_best(
         if on_bound is not None and bound is not None:
             on_bound((bound + _MARGIN) * unit)
 
-    program = Program(clock, maximise=True, on_progress=tell, on_solution=offer)
+    def note(values: Floats) -> None:
+        offer(values)
+
+    program = Program(clock, maximise=True, on_progress=tell, on_solution=note)
     above = roads.routes[::-1].cumsum()[::-1]
     needs = csr_array(pool.classes >= np.arange(len(above))[:, None], dtype=np.float64)
     least = np.full(len(above), -np.inf)

@@ -1,4 +1,4 @@
-"""The pricing problem: which routes are worth more than the AUV that sails them costs?
+"""The pricing problem: routes that are worth more than the AUV that sails them costs.
 
 Given multipliers pi_i of the nodes, sigma_S of the cuts and a floor nu_c for every class c of equal
 AUVs, a route r is worth
@@ -29,7 +29,7 @@ from fiveroute.models.branch_price.join import join_at, labels_at
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.plan import Route
 
-__all__ = ["Cut", "Duals", "Pricer", "Priced"]
+__all__ = ["Cut", "Duals", "Priced", "Pricer"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -41,6 +41,9 @@ class Roads:
         Number of AUVs of every class, shape (C,).
     members
         The AUVs of every class.
+    earliest, remaining
+        Least time from the start to the end of the service at every vertex, and from there
+        to the destination, in seconds, shape (n + 2,).
     """
 
     problem: TeamOrienteering
@@ -48,6 +51,8 @@ class Roads:
     limits: Floats
     routes: Floats
     members: tuple[tuple[int, ...], ...]
+    earliest: Floats
+    remaining: Floats
 
     @classmethod
     def of(cls, network: Network) -> Roads:
@@ -60,7 +65,13 @@ class Roads:
         np.fill_diagonal(unused, True)
         unused[:, 0] = unused[-1] = True
         return cls(
-            problem, np.where(unused, np.inf, leg), limits, network.routes, network.members
+            problem,
+            np.where(unused, np.inf, leg),
+            limits,
+            network.routes,
+            network.members,
+            network.earliest,
+            network.remaining,
         )
 
     @property
@@ -92,20 +103,30 @@ class Roads:
         A node that gains nothing is left out if going past it is possible and no slower,
         whatever the nodes before and after.
         """
-        inside = np.isfinite(self.leg).any(axis=0) & np.isfinite(self.leg).any(axis=1)
+        finite = np.isfinite(self.leg)
+        inside = np.asarray(finite.any(axis=0) & finite.any(axis=1))
         useless = inside & (gain <= 0.0)
         useless[[0, -1]] = False
         inside[[0, -1]] = True
         vertices = np.flatnonzero(inside)
-        needed = ~_avoidable(self.leg, vertices, useless, self.limits[-1])
+        needed = ~_avoidable(
+            self.leg, self.earliest, self.remaining, vertices, useless, self.limits[-1]
+        )
         kept: Ints = vertices[needed[vertices]]
         return kept
 
 
 @kernel
-def _avoidable(leg: Floats, vertices: Ints, useless: Booleans, horizon: float) -> Booleans:
+def _avoidable(
+    leg: Floats,
+    earliest: Floats,
+    remaining: Floats,
+    vertices: Ints,
+    useless: Booleans,
+    horizon: float,
+) -> Booleans:
     """Which useless nodes no route needs to get from one vertex to another."""
-    avoidable = useless.copy()
+    avoidable: Booleans = useless.copy()
     for k in vertices:
         if not useless[k]:
             continue
@@ -113,10 +134,11 @@ def _avoidable(leg: Floats, vertices: Ints, useless: Booleans, horizon: float) -
             if i == k or not leg[i, k] < np.inf:
                 continue
             for j in vertices:
-                if j == i or j == k:
+                if j in (i, k):
                     continue
                 through = leg[i, k] + leg[k, j]
-                if through <= horizon and leg[i, j] > through + 1e-15 * horizon:
+                in_time = earliest[i] + through + remaining[j] <= horizon
+                if in_time and leg[i, j] > through + 1e-15 * horizon:
                     avoidable[k] = False
                     break
             if not avoidable[k]:

@@ -94,6 +94,7 @@ class _Tree:
         self.open: list[tuple[float, int, Branch, Subproblem | None]] = []
         self.order = itertools.count()
         self.under_way = self.stuck = -np.inf
+        self.here: Subproblem
 
     def search(self) -> bool:
         """Search until nothing is left or time is up; whether nothing is left."""
@@ -157,6 +158,7 @@ class _Tree:
     def on_bound(self, bound: float) -> None:
         """Note a bound of the subproblem under way."""
         self.under_way = min(self.under_way, bound)
+        self.incumbent.note = f"with {len(self.here.master.routes)} columns"
         self.tell()
 
     def lower(self, bound: float) -> None:
@@ -172,6 +174,7 @@ class _Tree:
             here.start_from(parent.master.routes, parent.master.cuts)
         else:
             here.start_from(self.incumbent.plan.routes if self.incumbent.plan else [], [])
+        self.here = here
         has_converged = here.relax(self.on_bound)
         if parent is None and has_converged:
             self.plan_over_known_routes(here)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -156,11 +157,11 @@ class Subproblem:
         end = len(self.near) - 1
         for route, share in zip(routes, shares.tolist(), strict=True):
             stops = (0, *route, end)
-            for leg in zip(stops[:-1], stops[1:], strict=True):
+            for leg in pairwise(stops):
                 use[leg] = use.get(leg, 0.0) + share
         use.pop((0, end), None)
-        leg = min(use, key=lambda leg: (abs(use[leg] - 0.5), leg), default=None)
-        return leg if leg is not None and abs(use[leg] - 0.5) < 0.5 - 1e-4 else None
+        best = min(use, key=lambda leg: (abs(use[leg] - 0.5), leg), default=None)
+        return best if best is not None and abs(use[best] - 0.5) < 0.5 - 1e-4 else None
 
     def branches(self) -> list[Branch]:
         """Two subproblems that share all plans of this one between them; none if it is whole."""

@@ -1,0 +1,125 @@
+"""Column generation against brute force and enumeration, by every way it can end."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.spatial.distance import cdist
+
+from fiveroute.limits import Limits, Progress
+from fiveroute.models import branch_price, enumeration
+from fiveroute.models.branch_price import solver
+from fiveroute.models.branch_price.subproblem import Subproblem
+from fiveroute.problem import TeamOrienteering
+from fiveroute.result import PROOF_TOLERANCE, Result, Status
+
+Odd = Callable[[int], Any]
+
+
+def field(n: int, seed: int, budgets: list[float], skew: float = 0.0) -> TeamOrienteering:
+    """Nodes in a square of 10 by 10, the paper's ends and data; asymmetric if skewed."""
+    rng = np.random.default_rng(seed)
+    xy = np.vstack([[3.0, 5.0], rng.uniform(0.0, 10.0, (n, 2)), [7.0, 5.0]])
+    travel = cdist(xy, xy) * rng.uniform(1.0 - skew, 1.0 + skew, (n + 2, n + 2))
+    profit = np.pad(1.0 - rng.random(n), 1)
+    return TeamOrienteering(travel, 0.1 * (profit > 0.0), profit, budgets)
+
+
+def require_truth(truth: Any, result: Result) -> None:
+    if truth.optimum is None:
+        assert result.status is Status.INFEASIBLE
+        return
+    assert result.status is Status.OPTIMAL
+    assert result.objective == pytest.approx(truth.optimum, rel=1e-6, abs=1e-6)
+    assert result.bound is not None
+    assert result.bound >= truth.optimum - PROOF_TOLERANCE
+
+
+@pytest.mark.parametrize("seed", range(150))
+def test_agrees_with_brute_force(seed: int, odd: Odd) -> None:
+    require_truth(odd(seed), branch_price.solve(odd(seed).problem))
+
+
+@pytest.mark.parametrize("seed", range(150))
+@pytest.mark.parametrize("with_cuts", [False, True])
+def test_branching_alone_agrees_with_brute_force(
+    seed: int, with_cuts: bool, odd: Odd, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """No enumeration, no plan over known routes, next to no neighbourhoods."""
+    for name, value in (("_FIRST_PARTIAL", 0), ("_MOST_PARTIAL", 0), ("_NEIGHBOURS", 2)):
+        monkeypatch.setattr(solver, name, value)
+    monkeypatch.setattr(solver, "_PLAN_TIME", 0.0)
+    if not with_cuts:
+        monkeypatch.setattr(Subproblem, "cut", lambda *_: False)
+    require_truth(odd(seed), branch_price.solve(odd(seed).problem))
+
+
+@pytest.mark.parametrize("seed", range(100))
+def test_a_bound_holds_whenever_it_is_stopped(seed: int, odd: Odd) -> None:
+    truth = odd(seed)
+    limit = float(np.random.default_rng(seed).uniform(0.0, 0.02))
+    result = branch_price.solve(truth.problem, Limits(time=limit))
+    if truth.optimum is None:
+        assert result.plan is None
+    else:
+        assert result.status is not Status.INFEASIBLE
+        assert result.bound is not None
+        assert result.bound >= truth.optimum - PROOF_TOLERANCE
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_agrees_with_enumeration(seed: int) -> None:
+    budgets = [9.0, 9.0] if seed % 2 else [8.0, 10.0, 9.0]
+    problem = field(12 + seed, seed, budgets, skew=0.2 * (seed % 3))
+    result, other = branch_price.solve(problem), enumeration.solve(problem)
+    assert result.status is other.status is Status.OPTIMAL
+    assert result.objective == pytest.approx(other.objective, abs=1e-6)
+
+
+@pytest.mark.parametrize("time", [0.05, 0.3, 1.0])
+def test_bounds_of_a_larger_problem_hold_at_any_time(time: float) -> None:
+    problem = field(30, 4, [11.0, 11.0])
+    stopped = branch_price.solve(problem, Limits(time=time))
+    done = branch_price.solve(problem)
+    assert done.status is Status.OPTIMAL
+    assert stopped.bound is not None
+    assert stopped.bound >= (done.objective or 0.0) - PROOF_TOLERANCE
+    assert (stopped.objective or 0.0) <= (done.bound or 0.0)
+
+
+def test_a_warm_start_is_the_first_plan() -> None:
+    problem = field(20, 5, [9.0, 9.0])
+    best = branch_price.solve(problem)
+    told: list[Progress] = []
+    again = branch_price.solve(problem, warm_start=best.plan, progress=told.append)
+    assert told[0].objective == 0.0
+    assert told[1].objective == best.objective
+    assert again.objective == best.objective
+    assert again.status is Status.OPTIMAL
+
+
+def test_progress_tells_the_columns() -> None:
+    told: list[Progress] = []
+    branch_price.solve(field(20, 5, [9.0, 9.0]), progress=told.append)
+    assert any("columns" in progress.message for progress in told)
+
+
+def test_an_interrupt_keeps_the_best_plan() -> None:
+    limits = Limits()
+    threading.Timer(0.3, limits.interrupt.set).start()
+    result = branch_price.solve(field(60, 6, [20.0, 20.0]), limits)
+    assert result.status is Status.FEASIBLE
+    assert result.objective is not None
+    assert result.objective > 0.0
+
+
+def test_hundreds_of_nodes_get_a_bound() -> None:
+    problem = field(600, 7, [9.0])
+    result = branch_price.solve(problem, Limits(time=20.0))
+    assert result.status is Status.FEASIBLE
+    assert result.bound is not None
+    assert result.bound < problem.total_profit
