@@ -22,7 +22,7 @@ __all__ = ["Relaxation", "generate"]
 
 Floats = NDArray[np.float64]
 
-_SMOOTHING = 0.4  # weight of the best multipliers so far
+_SMOOTHING = 0.3  # weight of the best multipliers so far
 _ROUTES = 150  # routes that one pricing adds
 _CLOSE = 1e-7  # relative distance of bound and master objective that counts as converged
 _SHARE = 0.02  # or this share of the distance to the target
@@ -93,8 +93,13 @@ def generate(
         point = best.duals.between(duals, smoothing)
         if quick:
             priced = pricer.price(point, clock, exact=False)
-            if priced is not None and _added(master, priced, duals):
-                continue
+            if priced is not None:
+                relaxation = Relaxation.of(pricer, point, priced.best)
+                if relaxation.value < best.value:
+                    best = relaxation
+                    on_bound(best.value)
+                if _added(master, priced, duals):
+                    continue
         priced = pricer.price(point, clock)
         if priced is None:
             break

@@ -28,6 +28,7 @@ __all__ = ["solve", "supports"]
 Booleans = NDArray[np.bool_]
 
 _NEIGHBOURS = 8
+_SMALL = 25  # nodes up to which a quick bound is not worth its time
 _TOO_LARGE = 500  # nodes above which a quick bound and a greedy plan are all
 _PLAN_TIME = 3.0  # seconds for a plan over the routes of the master problem
 _FIRST_PARTIAL, _MOST_PARTIAL = 400_000, 3_000_000  # partial routes of an enumeration
@@ -67,14 +68,17 @@ def solve(
         return incumbent.infeasible()
     if incumbent.must_stop:
         return incumbent.result()
-    incumbent.lower(quick_bound(problem, incumbent.clock.rest(), effort=Effort.LEAST).value)
+    effort = Effort.LEAST if problem.n <= _SMALL else Effort.QUICK
+    bound = quick_bound(problem, incumbent.clock.rest(), effort=effort)
+    if bound.method == "infeasible":
+        return incumbent.infeasible()
+    incumbent.lower(bound.value)
     greedy = greedy_plan(problem, problem.profit, incumbent.clock)
     if greedy is not None:
         incumbent.offer(greedy)
     if incumbent.must_stop:
         return incumbent.result()
     if problem.n > _TOO_LARGE:
-        incumbent.lower(quick_bound(problem, incumbent.clock.rest()).value)
         return incumbent.result()
     tree = _Tree(Roads.of(network), incumbent)
     if tree.search() and incumbent.plan is None:
