@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
 
-__all__ = ["Completion", "complete", "completion_bound", "over_legs"]
+__all__ = ["Completion", "complete", "completion_bound", "nearest_nodes", "over_legs"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -90,13 +90,13 @@ def complete(
     whole = np.full(leg.shape, steps + 1, dtype=np.int64)
     finite = leg <= horizon * (1.0 + _ROUNDING)
     whole[finite] = np.floor(leg[finite] / step + _ROUNDING / 1e3).astype(np.int64)
-    nearest = _nearest(leg, memory)
+    nearest = nearest_nodes(leg, memory)
     value = np.full((steps + 1, len(leg), 1 << memory), -np.inf)
     _walk(whole, gain, origin, _clusters(whole), _carry(nearest), value)
     return Completion(value, nearest, step)
 
 
-def _nearest(leg: Floats, memory: int) -> Ints:
+def nearest_nodes(leg: Floats, memory: int) -> Ints:
     """The nodes nearest to every node in either direction, shape (size, memory)."""
     there = np.minimum(leg, leg.T)
     there[[0, -1]] = there[:, [0, -1]] = np.inf

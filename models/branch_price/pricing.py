@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from fiveroute.limits import Clock
 from fiveroute.models.branch_price import labels as lb
-from fiveroute.models.branch_price.completion import Completion, complete, over_legs
+from fiveroute.models.branch_price.completion import Completion, complete, nearest_nodes, over_legs
 from fiveroute.models.branch_price.join import join_at, labels_at
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.plan import Route
@@ -189,6 +189,15 @@ class Pricer:
         horizon = float(self.roads.limits[-1])
         behind = complete(graph.leg, graph.gain, 0, horizon, _STEPS, _MEMORY)
         return behind.of_routes(self.roads.limits, len(graph.gain) - 1)
+
+    def remembered_by_walks(self, duals: Duals) -> Booleans:
+        """Nodes that the walks behind `best` remember at every vertex, shape (n + 2, n + 2)."""
+        graph = _Graph.of(self.roads, self.roads.profit - duals.node, self.near, duals)
+        nearest = nearest_nodes(graph.leg, _MEMORY)
+        near = np.zeros(self.near.shape, dtype=np.bool_)
+        rows, bits = np.nonzero(nearest >= 0)
+        near[graph.nodes[rows], graph.nodes[nearest[rows, bits]]] = True
+        return near
 
     def useless_legs(self, duals: Duals, floors: Floats) -> Booleans:
         """Legs on no route that is worth more than its floor, by walks, shape (n + 2, n + 2)."""
