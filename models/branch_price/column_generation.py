@@ -98,7 +98,7 @@ def generate(
                 if relaxation.value < best.value:
                     best = relaxation
                     on_bound(best.value)
-                if _added(master, priced, duals):
+                if _added(master, priced, duals) or clock.expired:
                     continue
         priced = pricer.price(point, clock)
         if priced is None:

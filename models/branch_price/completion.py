@@ -35,7 +35,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _ROUNDING = 1e-9  # share of a step by which remaining time is rounded up; legs by far less
-_MOST_WORK = 300_000_000  # steps of the dynamic programme, some tenths of a second
+_MOST_WORK = 120_000_000  # steps of the dynamic programme, some tenths of a second
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -163,11 +163,13 @@ class Pricer:
         memory = _MEMORY if exact else _QUICK_MEMORY
         end = len(graph.gain) - 1
         behind = complete(graph.leg, graph.gain, 0, horizon, _STEPS, memory)
-        ahead = complete(graph.leg.T, graph.gain, end, horizon, _STEPS, memory)
         walks = behind.of_routes(self.roads.limits, end)
         floor = np.nextafter(duals.floor, np.inf)
         if (walks <= floor).all():
             return Priced([], walks, True)
+        if clock.expired:
+            return Priced([], walks, False)
+        ahead = complete(graph.leg.T, graph.gain, end, horizon, _STEPS, memory)
         half = self.half * horizon
         search = _Search(graph, self.roads.limits, floor, exact, clock, self.most_labels)
         forward, backward = search.start(0), search.start(end)

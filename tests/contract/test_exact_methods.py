@@ -255,14 +255,14 @@ def test_units_do_not_matter(problem: TeamOrienteering, scale: float) -> None:
         problem.travel * scale, problem.service * scale, problem.profit * scale,
         problem.budgets * scale,
     )  # fmt: skip
-    for name in ("circuit", "compact", "flow"):
+    for name in ("branch-price", "circuit", "compact", "enumeration", "flow"):
         require_truth(scaled, METHODS[name](scaled))
 
 
 def test_auto_says_what_it_chose() -> None:
     problem = BANK["equal budgets"]
-    assert choose(problem) == "circuit"
-    assert solve(problem).method == "circuit"
+    assert choose(problem) == "branch-price"
+    assert solve(problem).method == "branch-price"
     assert choose(scattered(60, [100.0], seed=1)) == "flow"
 
 
