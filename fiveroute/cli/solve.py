@@ -10,12 +10,22 @@ from fiveroute.cli import options
 
 __all__ = ["command"]
 
+METHODS = (
+    "auto",
+    "branch-price",
+    "brute-force",
+    "circuit",
+    "compact",
+    "enumeration",
+    "flow",
+)
+
 
 @click.command("solve")
 @options.instance
 @click.option(
     "--method",
-    type=click.Choice(["auto", "brute-force", "circuit", "compact", "flow"]),
+    type=click.Choice(METHODS),
     default="auto",
     show_default=True,
     help="Exact method; auto chooses one and says which.",
@@ -30,6 +40,11 @@ __all__ = ["command"]
     help="Relative optimality gap at which to stop.",
 )
 @options.straight_lines
+@click.option(
+    "--certificate",
+    type=click.Path(path_type=Path),
+    help="Write what `verify --certificate` needs to confirm the bound of the relaxation.",
+)
 @options.output("Write the plan to this file.")
 @options.force
 @options.json_output
@@ -42,12 +57,14 @@ def command(
     time_limit: float,
     gap: float,
     straight_lines: bool,
+    certificate: Path | None,
     output: Path | None,
     force: bool,
     as_json: bool,
 ) -> None:
     """Best plan for INSTANCE with a proof, or the best bound in the time given."""
     from fiveroute.cli import answers
+    from fiveroute.cli.certifying import write_certificate
     from fiveroute.cli.files import require_output
     from fiveroute.cli.running import run
     from fiveroute.cli.sailing import completed, file_plan, sail
@@ -58,7 +75,8 @@ def command(
     from fiveroute.problem import TeamOrienteering
     from fiveroute.result import Result
 
-    require_output(output, force)
+    for path in (output, certificate):
+        require_output(path, force)
     mission = read_instance(instance)
 
     def work(
@@ -72,6 +90,8 @@ def command(
     outcome = run(work, Limits(time_limit, gap))
     voyage, problem, result = outcome.value
     file_plan(voyage, problem, result, output, force=force, source=instance)
+    if certificate is not None:
+        write_certificate(mission, voyage, problem, certificate, force=force)
     answer = completed(answers.solve_answer(voyage.instance, problem, result), voyage)
     if as_json:
         answers.print_json(answer)

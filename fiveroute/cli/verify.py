@@ -10,22 +10,37 @@ import click
 from fiveroute.cli import options
 
 if TYPE_CHECKING:
+    from typing import NoReturn
+
     import numpy as np
     from numpy.typing import NDArray
 
     from fiveroute.check import Violation
+    from fiveroute.instance import Instance
 
 __all__ = ["command"]
 
 
 @click.command("verify")
 @options.instance
-@click.argument("plan", type=click.Path(path_type=Path))
+@click.argument("plan", type=click.Path(path_type=Path), required=False)
+@click.option(
+    "--certificate",
+    type=click.Path(path_type=Path),
+    help="Confirm the bound that `solve --certificate` wrote, instead of judging a plan.",
+)
+@options.time_limit
 @options.straight_lines
 @options.json_output
 @click.pass_context
 def command(
-    ctx: click.Context, instance: Path, plan: Path, straight_lines: bool, as_json: bool
+    ctx: click.Context,
+    instance: Path,
+    plan: Path | None,
+    certificate: Path | None,
+    time_limit: float,
+    straight_lines: bool,
+    as_json: bool,
 ) -> None:
     """Judge PLAN for INSTANCE: every violation, with its AUV, node and amount.
 
@@ -38,7 +53,12 @@ def command(
     from fiveroute.formats import read_instance
     from fiveroute.formats.plan_file import read_plan
 
+    if (plan is None) == (certificate is None):
+        raise click.UsageError("give either PLAN or --certificate")
     mission = read_instance(instance)
+    if certificate is not None:
+        _confirm(ctx, mission, instance, certificate, time_limit, as_json)
+    assert plan is not None
     filed = read_plan(plan, mission)
     travel: NDArray[np.float64] | None = None
     violations: list[Violation] = []
@@ -55,3 +75,33 @@ def command(
     else:
         answers.print_verdict(answer)
     ctx.exit(1 if violations else 0)
+
+
+def _confirm(
+    ctx: click.Context,
+    mission: Instance,
+    instance: Path,
+    certificate: Path,
+    time_limit: float,
+    as_json: bool,
+) -> NoReturn:
+    """Confirm a certificate and leave: 0 confirmed, 1 refuted, 3 stopped before."""
+    from fiveroute.cli import answers
+    from fiveroute.cli.certifying import confirm_certificate
+    from fiveroute.cli.running import run
+    from fiveroute.limits import Limits
+
+    outcome = run(
+        lambda limits, _: confirm_certificate(mission, instance, certificate, limits),
+        Limits(time_limit),
+    )
+    answer = outcome.value
+    if as_json:
+        answers.print_json(answer)
+    elif answer["confirmed"]:
+        click.echo(f"{mission.name}: no plan collects more than {answer['bound']:.10g}")
+    elif answer["excess"] > 0.0:
+        click.echo(f"{mission.name}: refuted, a route is worth {answer['excess']:.6g} too much")
+    else:
+        click.echo(f"{mission.name}: not confirmed in the time given")
+    ctx.exit(0 if answer["confirmed"] else 1 if answer["excess"] > 0.0 else 3)
