@@ -101,10 +101,6 @@ class Course:
         """Anchor, route and destination, with room for one stop more."""
         return np.array((self.anchor, *self.route, destination, destination))
 
-    def without(self, at: int) -> Course:
-        """The course without the node at a position of the route."""
-        return replace(self, route=(*self.route[:at], *self.route[at + 1 :]))
-
     def with_node(self, node: int, at: int) -> Course:
         """The course with a node inserted at a position of the route."""
         return replace(self, route=(*self.route[:at], node, *self.route[at:]))
