@@ -50,6 +50,7 @@ MOST_PARTIAL = 1_000_000
 _BITS = 62  # nodes in a word
 _SAFE = 1.0 + 1e-11  # limits grow by this factor: the order of a sum must not cost a route
 _METRIC = 1e-14  # share of the horizon by which a detour may be shorter, through rounding
+_QUICK_TO_PRESOLVE = 5000  # sets up to which presolving takes no time to speak of
 _MARGIN = 1e-7  # what HiGHS may be wrong by, in units of the data
 
 
@@ -183,6 +184,8 @@ class _Choice:
         self.program.require_integers(True)
         self.program.set("mip_rel_gap", self.incumbent.clock.limits.gap)
         self.program.set("mip_abs_gap", 0.0)
+        if len(self.places) > _QUICK_TO_PRESOLVE:
+            self.program.set("presolve", "off")  # it looks at no clock
         outcome = self.program.solve()
         if self.program.has_solution:
             self._offer(self.program.values)
