@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from typing import Any
 
@@ -109,9 +108,15 @@ def test_progress_tells_the_columns() -> None:
 
 
 def test_an_interrupt_keeps_the_best_plan() -> None:
+    """Interrupted at the first bound that columns give, long before the proof."""
     limits = Limits()
-    threading.Timer(0.3, limits.interrupt.set).start()
-    result = branch_price.solve(field(60, 6, [20.0, 20.0]), limits)
+
+    def watch(progress: Progress) -> None:
+        if "columns" in progress.message:
+            limits.interrupt.set()
+
+    result = branch_price.solve(field(60, 6, [20.0, 20.0]), limits, progress=watch)
+    assert limits.interrupt.is_set()
     assert result.status is Status.FEASIBLE
     assert result.objective is not None
     assert result.objective > 0.0
