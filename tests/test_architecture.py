@@ -59,7 +59,19 @@ FORBIDDEN = [  # (who, whom, why)
     (("fiveroute.models",), ("fiveroute.heuristics",), "proofs do not depend on heuristics"),
     (("fiveroute.heuristics",), ("highspy", "ortools", "pyomo"), "heuristics need no solver"),
     (
-        ("fiveroute.tiers", "fiveroute.mission"),
+        ("fiveroute.ocean", "fiveroute.paths", "fiveroute.vehicle"),
+        ("fiveroute.tiers", "fiveroute.mission", "fiveroute.sea", "fiveroute.models"),
+        "the ocean, its paths and the vehicle know nothing of fleets",
+    ),
+    (
+        (
+            "fiveroute.tiers",
+            "fiveroute.mission",
+            "fiveroute.ocean",
+            "fiveroute.paths",
+            "fiveroute.sea",
+            "fiveroute.vehicle",
+        ),
         ("fiveroute.cli", "fiveroute.experiments"),
         "a tier does not know who calls it",
     ),
