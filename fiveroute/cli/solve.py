@@ -68,9 +68,9 @@ def command(
     from fiveroute.cli.files import require_output
     from fiveroute.cli.running import run
     from fiveroute.cli.sailing import completed, file_plan, sail
+    from fiveroute.exact import solve_from_good_plan
     from fiveroute.formats import read_instance
     from fiveroute.limits import Limits, ProgressCallback
-    from fiveroute.models import solve
     from fiveroute.paths.voyage import Voyage
     from fiveroute.problem import TeamOrienteering
     from fiveroute.result import Result
@@ -85,7 +85,8 @@ def command(
         clock = limits.start()
         voyage = sail(mission, instance, limits, straight_lines=straight_lines, progress=progress)
         problem = voyage.instance.problem(fleet_size, voyage.travel)
-        return voyage, problem, solve(problem, method, clock.rest(), progress=progress)
+        result = solve_from_good_plan(problem, method, clock.rest(), progress=progress)
+        return voyage, problem, result
 
     outcome = run(work, Limits(time_limit, gap))
     voyage, problem, result = outcome.value

@@ -25,8 +25,6 @@ Booleans = NDArray[np.bool_]
 
 _MOST_NEIGHBOURS = 24
 _CUTS_AT_ONCE = 20
-_SLOWER = 12.0  # how much longer a pricing with cuts may take than one without
-_QUICK = 2.0  # seconds that a pricing may take in any case
 
 
 @dataclass(frozen=True, slots=True)
