@@ -124,6 +124,8 @@ def main() -> None:
     rng = np.random.default_rng(options.seed)
     print(f"{'leg':>3s}  {'scipy':9s} {'reached s':>10s} {'paths':>7s} {'ms':>8s}", end="")
     print("".join(f"  {name:>24s}" for name in OURS), "  (budget, ms, times faster)")
+    theirs: dict[str, float] = {}
+    spent: dict[tuple[str, str], float] = {}
     ratios: dict[str, list[float]] = {name: [] for name in OURS}
     for leg in range(options.legs):
         ends = np.array([[300.0, 4700.0], rng.uniform(500.0, 4500.0, 2)]).T
@@ -134,17 +136,22 @@ def main() -> None:
             begun = time.process_time()
             reached, paths = scipy(problem, options.seed, strategy)
             seconds = time.process_time() - begun
+            theirs[strategy] = theirs.get(strategy, 0.0) + seconds
             print(
                 f"{leg:3d}  {strategy:9s} {reached:10.3f} {paths:7d} {1e3 * seconds:8.1f}", end=""
             )
             for name, search in OURS.items():
                 needed, budget = until(search, problem, SAME * reached, options.seed)
                 ratios[name].append(seconds / needed)
+                spent[name, strategy] = spent.get((name, strategy), 0.0) + needed
                 print(f"  {budget:7d} {1e3 * needed:8.2f} {seconds / needed:7.1f}", end="")
             print()
     for name, faster in ratios.items():
         middle = statistics.median(faster)
         print(f"{name:24s} {middle:7.1f} times faster in the median, at least {min(faster):.1f}")
+        for strategy, seconds in theirs.items():
+            ratio = seconds / spent[name, strategy]
+            print(f"{'':24s} {ratio:7.1f} times in total against {strategy}")
 
 
 if __name__ == "__main__":
