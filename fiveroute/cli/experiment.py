@@ -11,19 +11,22 @@ from fiveroute.cli import options
 __all__ = ["command"]
 
 
-@click.group("experiment")
-def command() -> None:
-    """Repeat the paper's experiments."""
-
-
-@command.command("preplanning")
-@click.option(
+_scenarios = click.option(
     "--scenarios",
     type=click.IntRange(min=1),
     default=20,
     show_default=True,
     help="Number of scenarios.",
 )
+
+
+@click.group("experiment")
+def command() -> None:
+    """Repeat the paper's experiments."""
+
+
+@command.command("preplanning")
+@_scenarios
 @options.seed
 @options.output("Folder for report, tables and pictures; made if it is missing.")
 @options.force
@@ -72,32 +75,12 @@ def preplanning(
 
 
 @command.command("stochastic")
-@click.option(
-    "--scenarios",
-    type=click.IntRange(min=1),
-    default=20,
-    show_default=True,
-    help="Number of scenarios.",
-)
+@_scenarios
 @click.option(
     "--runs", type=click.IntRange(min=1), default=50, show_default=True, help="Oceans a scenario."
 )
-@click.option(
-    "--reserve",
-    type=click.FloatRange(min=0.0),
-    default=1.645,
-    show_default=True,
-    metavar="Z",
-    help="Standard deviations of the remaining time kept in hand; 0 as in the paper.",
-)
-@click.option(
-    "--workers",
-    type=click.IntRange(min=1),
-    default=1,
-    show_default=True,
-    metavar="W",
-    help="Processes; the numbers do not depend on them.",
-)
+@options.reserve
+@options.workers
 @options.seed
 @options.output("Folder for report, tables and pictures; what is done is kept there as it is done.")
 @options.force

@@ -15,9 +15,11 @@ __all__ = [
     "instance",
     "json_output",
     "output",
+    "reserve",
     "seed",
     "straight_lines",
     "time_limit",
+    "workers",
 ]
 
 
@@ -61,6 +63,22 @@ seed = click.option(
 )
 straight_lines = click.option(
     "--straight-lines", is_flag=True, help="Ignore the ocean: straight legs in still water."
+)
+workers = click.option(
+    "--workers",
+    type=click.IntRange(min=1),
+    default=1,
+    show_default=True,
+    metavar="W",
+    help="Processes; the numbers do not depend on them.",
+)
+reserve = click.option(
+    "--reserve",
+    type=click.FloatRange(min=0.0),
+    default=1.645,
+    show_default=True,
+    metavar="Z",
+    help="Standard deviations of the remaining time kept in hand; 0 as in the paper.",
 )
 json_output = click.option(
     "--json", "as_json", is_flag=True, help="Print one JSON document on standard output."

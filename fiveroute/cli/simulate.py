@@ -44,14 +44,7 @@ CHANNELS = ("unlimited", "fsk", "psk", "nanomodem", "bursty")
     "--runs", type=click.IntRange(min=1), default=50, show_default=True, help="Oceans to sail in."
 )
 @options.seed
-@click.option(
-    "--reserve",
-    type=click.FloatRange(min=0.0),
-    default=1.645,
-    show_default=True,
-    metavar="Z",
-    help="Standard deviations of the remaining time kept in hand; 0 as in the paper.",
-)
+@options.reserve
 @click.option(
     "--channel",
     type=click.Choice(CHANNELS),
@@ -71,14 +64,7 @@ CHANNELS = ("unlimited", "fsk", "psk", "nanomodem", "bursty")
     help="Probability that an AUV fails in mid-mission.",
 )
 @click.option("--gap", is_flag=True, help="Compare each run with a clairvoyant plan (slower).")
-@click.option(
-    "--workers",
-    type=click.IntRange(min=1),
-    default=1,
-    show_default=True,
-    metavar="W",
-    help="Processes; the numbers do not depend on them.",
-)
+@options.workers
 @click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler to run on instead.")
 @options.time_limit
 @options.straight_lines

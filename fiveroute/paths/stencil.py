@@ -31,7 +31,7 @@ from fiveroute.paths.grid_search import (
 from fiveroute.paths.legs import Waters, track_time
 from fiveroute.paths.straighten import straighten
 
-__all__ = ["GridPath", "grid_path", "grid_paths", "grid_times"]
+__all__ = ["GridPath", "grid_path", "grid_paths"]
 
 Floats = NDArray[np.float64]
 
@@ -87,23 +87,6 @@ def grid_path(
     return grid_paths(
         waters, start, np.atleast_2d(goal), begin=begin, step=step, radius=radius, straight=straight
     )[0]
-
-
-def grid_times(
-    waters: Waters,
-    start: ArrayLike,
-    goals: ArrayLike,
-    *,
-    begin: float = 0.0,
-    step: float | None = None,
-    radius: int = 6,
-    straight: bool = True,
-) -> Floats:
-    """Durations in seconds from a point to each of others, shape (g,), as by `grid_paths`."""
-    paths = grid_paths(
-        waters, start, goals, begin=begin, step=step, radius=radius, straight=straight
-    )
-    return np.array([path.duration for path in paths])
 
 
 def grid_paths(

@@ -17,7 +17,7 @@ from fiveroute.ocean.currents import (
 )
 from fiveroute.paths.grid_search import stencil
 from fiveroute.paths.legs import Waters, track_clearance, track_time
-from fiveroute.paths.stencil import grid_path, grid_paths, grid_times
+from fiveroute.paths.stencil import grid_path, grid_paths
 from fiveroute.paths.uniform_flow import uniform_flow_time
 from fiveroute.paths.zermelo import zermelo_path
 
@@ -129,7 +129,7 @@ def test_one_run_for_many_goals_agrees_with_a_run_for_each() -> None:
     water = waters(vortices(7), CIRCLES)
     goals = np.random.default_rng(7).uniform(0.0, 1000.0, (12, 2))
     goals[6:] += 4000.0
-    together = grid_times(water, (700.0, 2500.0), goals, straight=False)
+    together = [p.duration for p in grid_paths(water, (700.0, 2500.0), goals, straight=False)]
     alone = [grid_path(water, (700.0, 2500.0), goal, straight=False).duration for goal in goals]
     assert together == pytest.approx(alone, rel=1e-5)
 
@@ -147,7 +147,8 @@ def test_obstacles_in_the_way_of_all_paths_leave_no_path() -> None:
         [3000.0 + 900.0 * np.cos(ring), 3000.0 + 900.0 * np.sin(ring), np.full(40, 100.0)]
     )
     water = waters(UniformCurrent(0.1, 0.0), no_barriers(SQUARE)._replace(circles=circles))
-    times = grid_times(water, (500.0, 500.0), [(3000.0, 3000.0), (5000.0, 5000.0)])
+    goals = [(3000.0, 3000.0), (5000.0, 5000.0)]
+    times = [path.duration for path in grid_paths(water, (500.0, 500.0), goals)]
     assert math.isinf(times[0])
     assert math.isfinite(times[1])
 
