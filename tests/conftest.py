@@ -1,10 +1,20 @@
-"""What all tests share."""
+"""What all tests share.
+
+Random problems are the same in every run, so that a failure is somebody's doing and can be
+repeated; `HYPOTHESIS_PROFILE=explore make test` draws new ones.
+"""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 
 import pytest
+from hypothesis import settings
+
+settings.register_profile("fixed", derandomize=True)
+settings.register_profile("explore", derandomize=False)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
 
 
 @pytest.fixture(autouse=True, scope="session")
