@@ -7,7 +7,6 @@ Okabe and Ito (2008), which colour-blind readers can tell apart.
 from __future__ import annotations
 
 import itertools
-import secrets
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +18,7 @@ from matplotlib.patches import Circle, Polygon
 from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
+from fiveroute.formats.files import written_whole
 from fiveroute.instance import Instance
 from fiveroute.paths.legs import Waters
 from fiveroute.plan import Route
@@ -169,11 +169,8 @@ def completion_boxes(
 
 def save(figure: Figure, path: Path) -> None:
     """Write a figure, whole or not at all; the suffix chooses the format."""
-    part = path.with_name(f".{path.stem}.{secrets.token_hex(6)}{path.suffix}")
     try:
-        figure.savefig(part, dpi=150)
-        part.replace(path)
+        with written_whole(path) as draft:
+            figure.savefig(draft, dpi=150)
     except OSError as error:
         raise InputError(f"cannot be written ({error.strerror})", file=path) from None
-    finally:
-        part.unlink(missing_ok=True)

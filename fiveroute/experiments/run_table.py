@@ -5,12 +5,11 @@ from __future__ import annotations
 import csv
 import io
 import json
-import secrets
 from pathlib import Path
 from typing import Any
 
 from fiveroute.errors import InputError
-from fiveroute.formats.files import write_text_atomically
+from fiveroute.formats.files import write_text_atomically, written_whole
 from fiveroute.instance import Instance
 from fiveroute.sea.simulation import SimulationResult
 
@@ -75,11 +74,8 @@ def write_table(result: SimulationResult, path: Path, force: bool = False) -> No
     import pyarrow
     import pyarrow.parquet
 
-    draft = path.with_name(f".{path.stem}.{secrets.token_hex(6)}{path.suffix}")
     try:
-        pyarrow.parquet.write_table(pyarrow.Table.from_pylist(rows), draft)
-        draft.replace(path)
+        with written_whole(path) as draft:
+            pyarrow.parquet.write_table(pyarrow.Table.from_pylist(rows), draft)
     except OSError as error:
         raise InputError(f"cannot be written ({error.strerror})", file=path) from None
-    finally:
-        draft.unlink(missing_ok=True)

@@ -13,6 +13,7 @@ import math
 import os
 import secrets
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from fiveroute.errors import InputError
@@ -27,6 +28,7 @@ __all__ = [
     "read_text",
     "require_writable",
     "write_text_atomically",
+    "written_whole",
 ]
 
 MAX_BYTES = 32 * 2**20
@@ -168,24 +170,30 @@ def write_text_atomically(path: Path, text: str, force: bool = False) -> None:
         if path.exists() and not path.is_file():
             path.write_text(text, encoding="utf-8", newline="\n")
         else:
-            _replace(path.resolve(), text)
+            with written_whole(path.resolve()) as draft:
+                _write_through(draft, text)
     except (OSError, ValueError) as error:
         raise InputError(_reason(error, "written"), file=path) from None
 
 
-def _replace(path: Path, text: str) -> None:
-    temporary = path.with_name(f".{path.name[:100]}.{secrets.token_hex(6)}.tmp")
+@contextmanager
+def written_whole(path: Path) -> Iterator[Path]:
+    """A draft beside a file, with its suffix, that takes the file's place if all goes well."""
+    draft = path.with_name(f".{path.stem[:80]}.{secrets.token_hex(6)}{path.suffix[:20]}")
     try:
-        with temporary.open("x", encoding="utf-8", newline="\n") as stream:
-            stream.write(text)
-            stream.flush()
-            os.fsync(stream.fileno())
+        yield draft
         if path.exists():
-            temporary.chmod(path.stat().st_mode)
-        temporary.replace(path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
+            draft.chmod(path.stat().st_mode)
+        draft.replace(path)
+    finally:
+        draft.unlink(missing_ok=True)
+
+
+def _write_through(path: Path, text: str) -> None:
+    with path.open("x", encoding="utf-8", newline="\n") as stream:
+        stream.write(text)
+        stream.flush()
+        os.fsync(stream.fileno())
 
 
 def _reason(error: Exception, done: str = "read") -> str:

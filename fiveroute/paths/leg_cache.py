@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from fiveroute.formats.files import written_whole
 from fiveroute.paths.leg_table import LegTable
 from fiveroute.paths.legs import Waters
 
@@ -73,16 +74,14 @@ def keep_table(key: str, table: LegTable) -> None:
     folder = cache_folder()
     with suppress(OSError):
         folder.mkdir(parents=True, exist_ok=True)
-        draft = folder / f"{key}.{os.getpid()}.tmp"
-        with draft.open("wb") as stream:
+        with written_whole(folder / f"{key}.npz") as draft:
             np.savez_compressed(
-                stream,
+                draft,
                 times=table.times,
                 first=table.first,
                 legs=table.legs,
                 tracks=table.tracks,
             )
-        draft.replace(folder / f"{key}.npz")
         kept = sorted(folder.glob("*.npz"), key=lambda file: file.stat().st_mtime)
         for stale in kept[:-_MOST]:
             stale.unlink()
