@@ -7,6 +7,7 @@ in one array, so that a table of thousands of legs is two files' worth of number
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -74,8 +75,10 @@ class LegTable:
         """The legs between some of the stops, in their order."""
         place = {stop: k for k, stop in enumerate(stops)}
         paths = {
-            (place[i], place[j]): (float(self.times[i, j]), self.track(i, j))
-            for i, j in self.planned()
+            (place[i], place[j]): (float(self.times[i, j]), self.tracks[begin:end])
+            for (i, j), (begin, end) in zip(
+                self.planned(), itertools.pairwise(self.first), strict=True
+            )
             if i in place and j in place
         }
         return LegTable.of(len(stops), paths)
