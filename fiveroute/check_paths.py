@@ -43,9 +43,13 @@ Tracks = Sequence[Sequence[Floats]]
 
 
 def check_paths(
-    instance: Instance, plan: Plan, tracks: Tracks, current: Current
+    instance: Instance,
+    plan: Plan,
+    tracks: Tracks,
+    current: Current,
+    times: Floats | None = None,
 ) -> list[Violation]:
-    """Judge the paths of a plan in the ocean of its instance; their times are another matter.
+    """Judge the paths of a plan in the ocean of its instance; whether in time is another matter.
 
     Parameters
     ----------
@@ -57,6 +61,8 @@ def check_paths(
         Paths of the legs from the start, between the nodes, and to the destination.
     current
         The current of the instance.
+    times
+        What `times_of_paths` says of them, if it is known already.
 
     Returns
     -------
@@ -66,6 +72,8 @@ def check_paths(
         the current is too strong to sail a leg.
     """
     points, forbidden = instance.points, _forbidden(instance)
+    if times is None:
+        times = times_of_paths(instance, plan, tracks, current)
     violations = []
     for auv, (legs, paths) in enumerate(_by_auv(instance, plan, tracks)):
         if len(legs) != len(paths):
@@ -76,20 +84,23 @@ def check_paths(
             ashore = _metres_ashore(track, current)
             if ashore > 0.0:
                 faults.append(("collision", ashore))
-            if math.isinf(sailing_time(track, current, instance.fleet.speed)):
+            if math.isinf(times[tail, head]):
                 faults.append(("impassable", _length(track)))
             violations += [Violation(kind, auv, head, amount) for kind, amount in faults]
     return violations
 
 
 def times_of_paths(instance: Instance, plan: Plan, tracks: Tracks, current: Current) -> Floats:
-    """Leg times of the paths of a plan in seconds, shape (n + 2, n + 2); infinite for others."""
-    times = np.full((len(instance.nodes) + 2,) * 2, np.inf)
+    """Leg times of the paths of a plan in seconds, shape (n + 2, n + 2); infinite for others.
+
+    Several AUVs may sail the direct leg, each on a path of its own: the slowest counts.
+    """
+    times = np.full((len(instance.nodes) + 2,) * 2, -np.inf)
     np.fill_diagonal(times, 0.0)
     for legs, paths in _by_auv(instance, plan, tracks):
         for leg, track in zip(legs, paths, strict=False):
-            times[leg] = sailing_time(track, current, instance.fleet.speed)
-    return times
+            times[leg] = max(times[leg], sailing_time(track, current, instance.fleet.speed))
+    return np.where(np.isneginf(times), np.inf, times)
 
 
 def _by_auv(

@@ -84,6 +84,15 @@ def test_nothing_wrong() -> None:
     assert math.isinf(times[0, 2])
 
 
+def test_of_several_paths_for_one_leg_the_slowest_counts() -> None:
+    """Two AUVs sail the direct leg, one of them round a corner."""
+    corner = np.array([[0.0, 0.0], [1000.0, 500.0], [1000.0, 0.0]])
+    slow = math.hypot(1000.0, 500.0) + 500.0
+    for tracks in ([[LINE], [corner]], [[corner], [LINE]]):
+        times = times_of_paths(mission(Ocean()), Plan.of([[], []]), tracks, STILL)
+        assert times[0, 2] == pytest.approx(slow)
+
+
 @pytest.mark.parametrize(
     ("ocean", "inside"),
     [

@@ -48,12 +48,11 @@ def judged_legs(
     plan = Plan.of([node for node in route if node < last] for route in filed.plan.routes)
     filed.require_currents(folder)
     current = stated_current(mission, folder)
-    if filed.tracks is None:
+    tracks = filed.tracks
+    if tracks is None:
         return _fastest(mission, plan, current), []
-    return (
-        times_of_paths(mission, plan, filed.tracks, current),
-        check_paths(mission, plan, filed.tracks, current),
-    )
+    times = times_of_paths(mission, plan, tracks, current)
+    return times, check_paths(mission, plan, tracks, current, times)
 
 
 def _fastest(mission: Instance, plan: Plan, current: Superposition) -> NDArray[np.float64]:
