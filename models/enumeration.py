@@ -31,7 +31,7 @@ from scipy.sparse import coo_array, csr_array, eye_array, hstack
 from fiveroute.limits import Clock, Limits, ProgressCallback
 from fiveroute.models.bounds import Effort, quick_bound
 from fiveroute.models.common_divisor import common_divisor, rounded_down
-from fiveroute.models.greedy_plan import greedy_plan
+from fiveroute.models.greedy_plan import offer_greedy_plan
 from fiveroute.models.highs import Outcome, Program
 from fiveroute.models.incumbent import Incumbent
 from fiveroute.models.network import Network
@@ -86,9 +86,7 @@ def solve(
     if incumbent.must_stop:
         return incumbent.result()
     incumbent.lower(quick_bound(problem, incumbent.clock.rest(), effort=Effort.LEAST).value)
-    greedy = greedy_plan(problem, problem.profit, incumbent.clock)
-    if greedy is not None:
-        incumbent.offer(greedy)
+    offer_greedy_plan(incumbent, problem.profit)
     if incumbent.must_stop:
         return incumbent.result()
     layers = _enumerate(network, incumbent.clock)

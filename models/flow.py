@@ -45,7 +45,7 @@ from fiveroute.models.bounds import quick_bound
 from fiveroute.models.common_divisor import common_divisor, rounded_down
 from fiveroute.models.flow_program import FlowProgram, Routes, arcs_of
 from fiveroute.models.flow_relaxation import FlowRelaxation, relax
-from fiveroute.models.greedy_plan import greedy_plan
+from fiveroute.models.greedy_plan import offer_greedy_plan
 from fiveroute.models.highs import Outcome
 from fiveroute.models.incumbent import Incumbent
 from fiveroute.models.network import Network
@@ -104,7 +104,7 @@ def solve(
         if bound.method == "infeasible":
             return incumbent.infeasible()
         incumbent.lower(bound.value)
-        _offer_greedy_plan(incumbent, problem.profit)
+        offer_greedy_plan(incumbent, problem.profit)
     if network.n > _TOO_LARGE or incumbent.must_stop:
         return incumbent.result()
     root = relax(network, incumbent.clock)
@@ -112,18 +112,12 @@ def solve(
         return incumbent.infeasible()
     incumbent.lower(rounded_down(root.dual.value, problem.profit))
     visits = np.append(root.visits[: network.n + 1], 0.0)
-    _offer_greedy_plan(incumbent, problem.profit * (_UNVISITED + visits))
+    offer_greedy_plan(incumbent, problem.profit * (_UNVISITED + visits))
     if incumbent.must_stop:
         return incumbent.result()
     if _search(root, incumbent) is Outcome.INFEASIBLE and incumbent.plan is None:
         return incumbent.infeasible()
     return incumbent.result()
-
-
-def _offer_greedy_plan(incumbent: Incumbent, weight: Floats) -> None:
-    plan = greedy_plan(incumbent.problem, weight, incumbent.clock)
-    if plan is not None:
-        incumbent.offer(plan)
 
 
 def _search(root: FlowRelaxation, incumbent: Incumbent) -> Outcome:

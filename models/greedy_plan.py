@@ -15,10 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.limits import Clock
+from fiveroute.models.incumbent import Incumbent
 from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 
-__all__ = ["greedy_plan"]
+__all__ = ["greedy_plan", "offer_greedy_plan"]
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -68,6 +69,13 @@ def greedy_plan(
             np.where(least < detour[auv], place, before[auv]),
         )
     return Plan.of(route[1:-1] for route in stops)
+
+
+def offer_greedy_plan(incumbent: Incumbent, weight: Floats) -> None:
+    """Fill routes by weights of the vertices, shape (n + 2,), for a method's running answer."""
+    plan = greedy_plan(incumbent.problem, weight, incumbent.clock)
+    if plan is not None:
+        incumbent.offer(plan)
 
 
 def _cheapest(

@@ -16,7 +16,7 @@ from fiveroute.models.branch_price.pool import Pool, plan_of, sail_best
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.models.branch_price.subproblem import Branch, Subproblem
 from fiveroute.models.common_divisor import common_divisor, rounded_down
-from fiveroute.models.greedy_plan import greedy_plan
+from fiveroute.models.greedy_plan import offer_greedy_plan
 from fiveroute.models.incumbent import Incumbent
 from fiveroute.models.network import Network
 from fiveroute.plan import Plan
@@ -73,9 +73,7 @@ def solve(
     if bound.method == "infeasible":
         return incumbent.infeasible()
     incumbent.lower(bound.value)
-    greedy = greedy_plan(problem, problem.profit, incumbent.clock)
-    if greedy is not None:
-        incumbent.offer(greedy)
+    offer_greedy_plan(incumbent, problem.profit)
     if incumbent.must_stop:
         return incumbent.result()
     if problem.n > _TOO_LARGE:
