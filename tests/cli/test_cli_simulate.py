@@ -8,6 +8,10 @@ from typing import Any
 
 import pytest
 
+from fiveroute.cli import simulate
+from fiveroute.sea.channel import PRESETS
+from fiveroute.sea.simulation import PLANNERS
+
 KEYS = {
     "instance",
     "planner",
@@ -58,6 +62,12 @@ def test_the_same_seed_gives_the_same_numbers(call: Any, tiny: Path, tmp_path: P
         call("simulate", tiny, "--runs", 8, "--workers", workers, "--output", table)
         tables.append(table.read_text())
     assert tables[0] == tables[1]
+
+
+def test_the_choices_are_those_there_are() -> None:
+    """The command line names them without importing what they stand for."""
+    assert set(simulate.PLANNERS) == set(PLANNERS)
+    assert set(simulate.CHANNELS) == set(PRESETS)
 
 
 def test_a_short_answer_for_people(call: Any, tiny: Path) -> None:

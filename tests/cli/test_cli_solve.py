@@ -4,6 +4,9 @@ from typing import Any
 
 import pytest
 
+from fiveroute.cli import solve
+from fiveroute.models import METHODS
+
 KEYS = {
     "instance",
     "method",
@@ -76,3 +79,8 @@ def test_an_existing_plan_is_not_overwritten_unasked(call: Any, tiny: Path) -> N
 
 def test_fleet_size_overrides_the_file(call: Any, tiny: Path) -> None:
     assert len(call("solve", tiny, "--fleet-size", 3, "--json").doc["routes"]) == 3
+
+
+def test_the_choices_are_the_methods() -> None:
+    """The command line names them without importing the models."""
+    assert set(solve.METHODS) == {"auto", *METHODS}
