@@ -98,6 +98,8 @@ def command(
     as_json: bool,
 ) -> None:
     """Carry PLAN out in the uncertain ocean of INSTANCE; without PLAN, plan first."""
+    import numpy as np
+
     from fiveroute.cli import answers
     from fiveroute.cli.files import require_output
     from fiveroute.cli.running import run
@@ -112,6 +114,7 @@ def command(
     from fiveroute.sea.departure import departure_plan
     from fiveroute.sea.simulation import SimulationResult
     from fiveroute.sea.theatre import Theatre
+    from fiveroute.tiers.preplanning import fleet_size_of
 
     for path in (events, output):
         require_output(path, force)
@@ -136,7 +139,11 @@ def command(
             mission, instance, limits, straight_lines=straight_lines, seed=seed, progress=progress
         )
         filed_routes = None if filed is None else _routes(filed, voyage)
-        size = len(filed_routes.routes) if filed_routes else fleet_size or _fleet(voyage, seed)
+        if filed_routes is not None:
+            size = len(filed_routes.routes)
+        else:
+            rng = np.random.default_rng(seed)
+            size = fleet_size or fleet_size_of(voyage.instance, voyage.travel, rng=rng)
         theatre = Theatre.of(voyage.instance, size, travel=voyage.travel)
         routes = filed_routes or departure_plan(
             theatre, planner, reserve=reserve, seed=seed, limits=clock.rest()
@@ -166,16 +173,3 @@ def _routes(filed: PlanFile, voyage: Voyage) -> Plan:
 
     vertex = {node.id: k for k, node in enumerate(voyage.instance.nodes, start=1)}
     return Plan.of([vertex[name] for name in route if name in vertex] for route in filed.routes)
-
-
-def _fleet(voyage: Voyage, seed: int) -> int:
-    """Number of AUVs of the instance, or else the estimate of tier 1."""
-    import numpy as np
-
-    from fiveroute.tiers.preplanning import preplan
-
-    stated = voyage.instance.fleet_size
-    if stated is not None:
-        return stated
-    rng = np.random.default_rng(seed)
-    return preplan(voyage.instance, travel=voyage.travel, rng=rng).problem.fleet_size

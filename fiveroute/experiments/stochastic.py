@@ -28,7 +28,7 @@ from fiveroute.kernels import source_digest
 from fiveroute.sea.departure import departure_plan
 from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
-from fiveroute.tiers.preplanning import preplan
+from fiveroute.tiers.preplanning import fleet_size_of
 
 __all__ = ["COMPETITORS", "FIXED_FLEET", "Cell", "Outcome", "cells_of", "sail_cell", "sail_cells"]
 
@@ -141,7 +141,7 @@ def sail_cell(cell: Cell) -> Outcome:
     fleet = cell.fleet_size
     if fleet is None:
         rng = np.random.default_rng((cell.seed, cell.scenario))
-        fleet = preplan(instance, rng=rng).problem.fleet_size
+        fleet = fleet_size_of(instance, rng=rng)
     theatre = Theatre.of(instance, fleet)
     plan = departure_plan(theatre, cell.planner, reserve=cell.reserve, seed=cell.seed)
     result = simulate_fleet(

@@ -33,7 +33,7 @@ from fiveroute.problem import TeamOrienteering
 from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
 from fiveroute.tiers.actuation import expected_legs
-from fiveroute.tiers.preplanning import preplan
+from fiveroute.tiers.preplanning import fleet_size_of
 
 __all__ = ["CAUTIONS", "departure_plan", "rehearse", "slack_plan"]
 
@@ -147,8 +147,7 @@ def slack_plan(
     if not 1.0 <= slack < np.inf:
         raise InputError("must be finite and at least 1", field="slack", value=slack)
     if fleet_size is None:
-        rng = np.random.default_rng(seed)
-        fleet_size = preplan(instance, None, travel=travel, rng=rng).problem.fleet_size
+        fleet_size = fleet_size_of(instance, travel, rng=np.random.default_rng(seed))
     legs = slack * (instance.travel if travel is None else travel)
     mission = plan_mission(instance, travel=legs, fleet_size=fleet_size, limits=limits, seed=seed)
     return mission.result.plan or Plan.empty(fleet_size)

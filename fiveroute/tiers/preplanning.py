@@ -28,7 +28,7 @@ from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import GiantRouteResult, Status, is_closed
 
-__all__ = ["Allocation", "Preplan", "allocations", "find_giant_route", "preplan"]
+__all__ = ["Allocation", "Preplan", "allocations", "find_giant_route", "fleet_size_of", "preplan"]
 
 Allocation = Literal["giant-route", "voronoi", "k-means", "ahc"]
 
@@ -143,6 +143,29 @@ def preplan(
     if stated is None:
         problem = instance.problem(estimate.size, travel)
     return Preplan(problem, routes, estimate)
+
+
+def fleet_size_of(
+    instance: Instance,
+    travel: NDArray[np.float64] | None = None,
+    *,
+    rng: np.random.Generator,
+) -> int:
+    """Number of AUVs that the instance states, or else the estimate of tier 1.
+
+    Parameters
+    ----------
+    instance
+        The mission.
+    travel
+        Leg times in the ocean in seconds, see `Instance.problem`; None sails straight lines.
+    rng
+        Random numbers.
+    """
+    stated = instance.fleet_size
+    return (
+        preplan(instance, travel=travel, rng=rng).problem.fleet_size if stated is None else stated
+    )
 
 
 def allocations(
