@@ -121,7 +121,7 @@ def stochastic(
                 progress(Progress(clock.seconds, message=message))
             if clock.interrupted:
                 break
-        return done
+        return sorted(done, key=lambda outcome: cells.index(outcome.cell))
 
     outcome = run(work, Limits())
     if outcome.interrupted:

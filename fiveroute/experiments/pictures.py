@@ -160,7 +160,8 @@ def completion_boxes(
         if name in published:
             axis.plot(place + 0.36, published[name], "D", color=_COLOURS[2], markersize=5)
     axis.plot([], [], "_", color=_COLOURS[1], markersize=14, label="mean")
-    axis.plot([], [], "D", color=_COLOURS[2], markersize=5, label="mean in the paper")
+    if published:
+        axis.plot([], [], "D", color=_COLOURS[2], markersize=5, label="mean in the paper")
     axis.legend(loc="lower right", fontsize="small")
     axis.set(title=title, ylabel="expected completion rate")
     axis.grid(axis="y", alpha=0.3)
