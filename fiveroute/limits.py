@@ -50,6 +50,13 @@ class Limits:
             if not value >= 0.0:
                 raise InputError("a limit must not be negative", field=name, value=value)
 
+    @classmethod
+    def of(cls, limits: Limits | float | None) -> Limits:
+        """Limits as people state them: a number of seconds, or None for no limit."""
+        if limits is None:
+            return cls()
+        return limits if isinstance(limits, Limits) else cls(float(limits))
+
     def start(self) -> Clock:
         """Start a fresh clock."""
         return Clock(self)

@@ -12,11 +12,12 @@ import click
 from fiveroute.instance import Instance
 from fiveroute.plan import Plan, Route
 from fiveroute.problem import TeamOrienteering
-from fiveroute.result import GiantRouteResult, Result, Status
+from fiveroute.result import GiantRouteResult, Status
 
 if TYPE_CHECKING:
     from fiveroute.check import Violation
     from fiveroute.experiments.gap_table import GapRow, GapSummary
+    from fiveroute.fleet_plan import FleetPlan
     from fiveroute.formats.plan_file import PlanFile
     from fiveroute.mission import MissionPlan
     from fiveroute.paths.voyage import Voyage
@@ -25,11 +26,11 @@ if TYPE_CHECKING:
 
 __all__ = [
     "exit_code",
+    "fleet_plan_answer",
     "gap_text",
     "giant_route_answer",
     "named",
     "path_answer",
-    "plan_answer",
     "print_gaps",
     "print_giant_route",
     "print_json",
@@ -39,7 +40,6 @@ __all__ = [
     "print_table",
     "print_verdict",
     "simulation_answer",
-    "solve_answer",
     "verify_answer",
 ]
 
@@ -56,32 +56,30 @@ def named(instance: Instance, route: Route) -> list[str]:
     return [instance.nodes[vertex - 1].id for vertex in route]
 
 
-def solve_answer(instance: Instance, problem: TeamOrienteering, result: Result) -> dict[str, Any]:
-    """The keys that `solve` and `plan` share."""
-    plan = result.plan or Plan(())
-    total = problem.total_profit
-    objective = result.objective
-    return {
-        "instance": instance.name,
-        "method": result.method,
-        "status": result.status.value,
-        "objective": objective,
-        "bound": result.bound,
-        "gap": result.gap,
-        "completion_rate": _completion(objective, total),
-        "fleet_size": problem.fleet_size,
-        "routes": [named(instance, route) for route in plan.routes],
-        "durations": list(plan.durations(problem)),
-        "seconds": result.seconds,
-        "seed": result.seed,
+def fleet_plan_answer(plan: FleetPlan) -> dict[str, Any]:
+    """The keys of `solve`; `plan` adds how the paper's pipeline came to its routes."""
+    answer = {
+        "instance": plan.instance.name,
+        "method": plan.result.method,
+        "status": plan.status.value,
+        "objective": plan.objective,
+        "bound": plan.bound,
+        "gap": plan.gap,
+        "completion_rate": plan.completion_rate,
+        "fleet_size": plan.fleet_size,
+        "routes": plan.routes,
+        "durations": plan.durations,
+        "seconds": plan.result.seconds,
+        "seed": plan.result.seed,
+        "straight_lines": plan.voyage.legs is None,
+        "unreachable": list(plan.unreachable),
     }
+    return answer if plan.pipeline is None else answer | _pipeline_answer(plan.pipeline)
 
 
-def plan_answer(planned: MissionPlan) -> dict[str, Any]:
-    """What `plan` adds: how the paper's pipeline came to its routes."""
+def _pipeline_answer(planned: MissionPlan) -> dict[str, Any]:
     instance = planned.instance
     return {
-        **solve_answer(instance, planned.problem, planned.result),
         "search": planned.search,
         "allocation": planned.allocation,
         "fleet_estimate": planned.fleet_estimate,

@@ -76,45 +76,30 @@ def command(
     as_json: bool,
 ) -> None:
     """Fleet size, routes for every AUV, completion rate and optimality gap for INSTANCE."""
-    from fiveroute.cli import answers
     from fiveroute.cli.files import require_output
     from fiveroute.cli.running import run
-    from fiveroute.cli.sailing import completed, file_plan, sail
+    from fiveroute.cli.sailing import answer_plan
+    from fiveroute.fleet_plan import plan
     from fiveroute.formats import read_instance
-    from fiveroute.limits import Limits, ProgressCallback
-    from fiveroute.mission import MissionPlan, plan_mission
-    from fiveroute.paths.voyage import Voyage
+    from fiveroute.limits import Limits
 
     require_output(output, force)
     mission = read_instance(instance)
-
-    def work(limits: Limits, progress: ProgressCallback | None) -> tuple[Voyage, MissionPlan]:
-        clock = limits.start()
-        voyage = sail(
-            mission, instance, limits, straight_lines=straight_lines, seed=seed, progress=progress
-        )
-        planned = plan_mission(
-            voyage.instance,
-            travel=voyage.travel,
+    outcome = run(
+        lambda limits, progress: plan(
+            mission,
             fleet_size=fleet_size,
-            allocation=allocation,
             search=search,
             bound=bound,
+            allocation=allocation,
             samples=samples,
             quantile=quantile,
-            limits=clock.rest(),
+            straight_lines=straight_lines,
+            limits=limits,
             seed=seed,
             progress=progress,
-        )
-        return voyage, planned
-
-    outcome = run(work, Limits(time_limit))
-    voyage, planned = outcome.value
-    result = planned.result
-    file_plan(voyage, planned.problem, result, output, force=force, source=instance)
-    answer = completed(answers.plan_answer(planned), voyage)
-    if as_json:
-        answers.print_json(answer)
-    else:
-        answers.print_routes(answer)
-    ctx.exit(answers.exit_code(result.status, outcome.interrupted))
+            folder=instance.parent,
+        ),
+        Limits(time_limit),
+    )
+    answer_plan(ctx, outcome, source=instance, output=output, force=force, as_json=as_json)

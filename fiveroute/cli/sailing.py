@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
+from fiveroute.fleet_plan import FleetPlan
+from fiveroute.fleet_plan import sail as sail_in_its_ocean
 from fiveroute.instance import Instance
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.paths.voyage import Voyage
 
 if TYPE_CHECKING:
-    from fiveroute.problem import TeamOrienteering
-    from fiveroute.result import Result
+    from fiveroute.cli.running import Outcome
 
-__all__ = ["completed", "file_plan", "sail"]
-
-_SHARE = 0.5
-"""Share of a time limit that planning the paths may take."""
+__all__ = ["answer_plan", "name_unreachable", "sail"]
 
 
 def sail(
@@ -31,7 +28,7 @@ def sail(
     seed: int = 0,
     progress: ProgressCallback | None = None,
 ) -> Voyage:
-    """Plan the legs of a mission in its ocean, or take straight lines where it has none.
+    """Plan the legs of the mission in a file, and name the nodes that cannot be reached.
 
     Parameters
     ----------
@@ -48,46 +45,61 @@ def sail(
     progress
         Told how many paths are planned.
     """
-    if straight_lines or not mission.has_ocean:
-        return Voyage.straight(mission)
-    from fiveroute.tiers.pathing import at_sea
+    voyage = sail_in_its_ocean(
+        mission,
+        folder=file.parent,
+        straight_lines=straight_lines,
+        limits=limits,
+        seed=seed,
+        progress=progress,
+    )
+    name_unreachable(voyage)
+    return voyage
 
-    until = limits.within(_SHARE * limits.time)
-    voyage = at_sea(mission, file.parent, limits=until, seed=seed, progress=progress)
+
+def name_unreachable(voyage: Voyage) -> None:
+    """Say on standard error which nodes cannot be reached, if any."""
     if voyage.unreachable:
         click.echo(
             "fiveroute: these nodes cannot be reached and are not visited: "
             f"{', '.join(voyage.unreachable)}",
             err=True,
         )
-    return voyage
 
 
-def file_plan(
-    voyage: Voyage,
-    problem: TeamOrienteering,
-    result: Result,
-    output: Path | None,
+def answer_plan(
+    ctx: click.Context,
+    outcome: Outcome[FleetPlan],
     *,
-    force: bool,
     source: Path,
+    output: Path | None,
+    force: bool,
+    as_json: bool,
 ) -> None:
-    """Write the plan of a voyage for its whole mission, if it has one and a file is asked for."""
-    if output is None or result.plan is None:
-        return
-    from fiveroute.formats.plan_file import PlanFile, write_plan
+    """File a plan where a file is asked for, print it, and leave with the code of its status.
 
-    filed = PlanFile.of(voyage.instance, problem, result, voyage.legs)
-    write_plan(replace(filed, instance=voyage.mission), output, force, source=source)
+    Parameters
+    ----------
+    ctx
+        The command.
+    outcome
+        What it came to.
+    source
+        File of the instance.
+    output, force
+        File for the plan, or None, and whether it may be overwritten.
+    as_json
+        Whether to print JSON.
+    """
+    from fiveroute.cli import answers
 
-
-def completed(answer: dict[str, Any], voyage: Voyage) -> dict[str, Any]:
-    """An answer for the voyage's instance, made one for the whole mission."""
-    total = sum(node.data for node in voyage.mission.nodes)
-    objective = answer["objective"]
-    if objective is not None:
-        answer["completion_rate"] = objective / total if total > 0.0 else 1.0
-    return answer | {
-        "straight_lines": voyage.legs is None,
-        "unreachable": list(voyage.unreachable),
-    }
+    plan = outcome.value
+    name_unreachable(plan.voyage)
+    if output is not None and plan.result.plan is not None:
+        plan.save(output, force=force, source=source)
+    answer = answers.fleet_plan_answer(plan)
+    if as_json:
+        answers.print_json(answer)
+    else:
+        answers.print_routes(answer)
+    ctx.exit(answers.exit_code(plan.status, outcome.interrupted))

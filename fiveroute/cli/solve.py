@@ -63,39 +63,30 @@ def command(
     as_json: bool,
 ) -> None:
     """Best plan for INSTANCE with a proof, or the best bound in the time given."""
-    from fiveroute.cli import answers
     from fiveroute.cli.certifying import write_certificate
     from fiveroute.cli.files import require_output
     from fiveroute.cli.running import run
-    from fiveroute.cli.sailing import completed, file_plan, sail
-    from fiveroute.exact import solve_from_good_plan
+    from fiveroute.cli.sailing import answer_plan
+    from fiveroute.fleet_plan import solve
     from fiveroute.formats import read_instance
-    from fiveroute.limits import Limits, ProgressCallback
-    from fiveroute.paths.voyage import Voyage
-    from fiveroute.problem import TeamOrienteering
-    from fiveroute.result import Result
+    from fiveroute.limits import Limits
 
     for path in (output, certificate):
         require_output(path, force)
     mission = read_instance(instance)
-
-    def work(
-        limits: Limits, progress: ProgressCallback | None
-    ) -> tuple[Voyage, TeamOrienteering, Result]:
-        clock = limits.start()
-        voyage = sail(mission, instance, limits, straight_lines=straight_lines, progress=progress)
-        problem = voyage.instance.problem(fleet_size, voyage.travel)
-        result = solve_from_good_plan(problem, method, clock.rest(), progress=progress)
-        return voyage, problem, result
-
-    outcome = run(work, Limits(time_limit, gap))
-    voyage, problem, result = outcome.value
-    file_plan(voyage, problem, result, output, force=force, source=instance)
+    outcome = run(
+        lambda limits, progress: solve(
+            mission,
+            method=method,
+            fleet_size=fleet_size,
+            straight_lines=straight_lines,
+            limits=limits,
+            progress=progress,
+            folder=instance.parent,
+        ),
+        Limits(time_limit, gap),
+    )
     if certificate is not None:
-        write_certificate(mission, voyage, problem, certificate, force=force)
-    answer = completed(answers.solve_answer(voyage.instance, problem, result), voyage)
-    if as_json:
-        answers.print_json(answer)
-    else:
-        answers.print_routes(answer)
-    ctx.exit(answers.exit_code(result.status, outcome.interrupted))
+        solved = outcome.value
+        write_certificate(mission, solved.voyage, solved.problem, certificate, force=force)
+    answer_plan(ctx, outcome, source=instance, output=output, force=force, as_json=as_json)

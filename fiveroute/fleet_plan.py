@@ -1,0 +1,356 @@
+"""Plans of a fleet in its ocean, for people who call fiveroute from Python.
+
+    import fiveroute as fr
+
+    plan = fr.plan(fr.read("sea.json"))
+    print(plan)
+    plan.save("plan.json")
+
+`plan` and `solve` do what the commands of the same names do: the legs are planned in the ocean of
+the instance first (tier 3), then the fleet (tiers 1 and 2, or an exact method). What they return
+knows its routes by the ids of the nodes, and how far it can be from optimal.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fiveroute.instance import Instance
+from fiveroute.limits import Limits, ProgressCallback
+from fiveroute.paths.voyage import Voyage
+from fiveroute.problem import TeamOrienteering
+from fiveroute.result import Result, Status
+
+if TYPE_CHECKING:
+    from fiveroute.formats.plan_file import PlanFile
+    from fiveroute.mission import Bounding, MissionPlan, Search
+    from fiveroute.tiers.preplanning import Allocation
+
+__all__ = ["FleetPlan", "plan", "read", "sail", "solve"]
+
+_SHARE_OF_PATHS = 0.5
+"""Share of a time limit that planning the paths may take."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FleetPlan:
+    """Routes for a fleet, what they collect, and what is known about the optimum.
+
+    Parameters
+    ----------
+    voyage
+        The mission, its leg times, and the nodes that cannot be reached.
+    problem
+        The team orienteering problem that was solved, with the fleet that is sent.
+    result
+        What the method answered.
+    pipeline
+        How tiers 1 and 2 came to the plan; None for an exact method.
+    """
+
+    voyage: Voyage
+    problem: TeamOrienteering
+    result: Result
+    pipeline: MissionPlan | None = None
+
+    @property
+    def instance(self) -> Instance:
+        """The mission as it was stated."""
+        return self.voyage.mission
+
+    @property
+    def status(self) -> Status:
+        """How the method ended."""
+        return self.result.status
+
+    @property
+    def objective(self) -> float | None:
+        """Data that the plan collects; None without a plan."""
+        return self.result.objective
+
+    @property
+    def bound(self) -> float | None:
+        """Proven upper bound on the data that any plan collects; None where none was computed."""
+        return self.result.bound
+
+    @property
+    def gap(self) -> float | None:
+        """(bound - objective) / objective; 0 for a plan that is proved optimal."""
+        return self.result.gap
+
+    @property
+    def completion_rate(self) -> float | None:
+        """Theta, equation (31): collected data over all data, nodes out of reach included."""
+        if self.objective is None:
+            return None
+        total = sum(node.data for node in self.instance.nodes)
+        return self.objective / total if total > 0.0 else 1.0
+
+    @property
+    def fleet_size(self) -> int:
+        """Number of AUVs."""
+        return self.problem.fleet_size
+
+    @property
+    def routes(self) -> list[list[str]]:
+        """Ids of the nodes that each AUV visits, in order, without start and destination."""
+        if self.result.plan is None:
+            return []
+        return [self._named(route) for route in self.result.plan.routes]
+
+    @property
+    def durations(self) -> list[float]:
+        """Travel and service time of every route in seconds."""
+        return [] if self.result.plan is None else list(self.result.plan.durations(self.problem))
+
+    @property
+    def unreachable(self) -> tuple[str, ...]:
+        """Ids of the nodes that no AUV can reach, or from which none gets home."""
+        return self.voyage.unreachable
+
+    def filed(self) -> PlanFile:
+        """The plan as a file holds it.
+
+        Raises
+        ------
+        InputError
+            If there is no plan.
+        """
+        from fiveroute.formats.plan_file import PlanFile
+
+        voyage = self.voyage
+        filed = PlanFile.of(voyage.instance, self.problem, self.result, voyage.legs)
+        return replace(filed, instance=voyage.mission)
+
+    def save(
+        self, path: str | PathLike[str], *, force: bool = False, source: Path | None = None
+    ) -> None:
+        """Write the plan to a file of its own, whole or not at all.
+
+        Parameters
+        ----------
+        path
+            The file.
+        force
+            Overwrite an existing file.
+        source
+            File that the instance comes from, where a name in it is relative.
+
+        Raises
+        ------
+        InputError
+            If there is no plan, or the file exists already.
+        """
+        from fiveroute.formats.plan_file import write_plan
+
+        target = Path(path)
+        write_plan(self.filed(), target, force, source=source or target)
+
+    def __str__(self) -> str:
+        """A line an AUV, and the figures that matter."""
+        lines = [
+            f"AUV {auv}: {' '.join(route) or 'straight home'} ({duration:.0f} s)"
+            for auv, (route, duration) in enumerate(
+                zip(self.routes, self.durations, strict=True), start=1
+            )
+        ]
+        figures = [f"{self.instance.name}: {self.status}"]
+        if self.objective is not None:
+            figures.append(f"{self.objective:.6g} collected ({self.completion_rate:.1%})")
+        if self.gap is not None:
+            figures.append(f"gap {self.gap:.2%}")
+        return "\n".join([", ".join(figures), *lines])
+
+    def _named(self, route: tuple[int, ...]) -> list[str]:
+        nodes = self.voyage.instance.nodes
+        return [nodes[vertex - 1].id for vertex in route]
+
+
+def read(path: str | PathLike[str], format_name: str | None = None) -> Instance:
+    """Read an instance of any format; its file of currents is named in full.
+
+    Parameters
+    ----------
+    path
+        The file.
+    format_name
+        Name of its format; None goes by what it holds.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, with the line or field, the rule and the remedy.
+    """
+    from fiveroute.formats import read_instance
+    from fiveroute.formats.native import currents_file
+
+    file = Path(path)
+    instance = read_instance(file, format_name)
+    named = currents_file(instance, file.absolute())
+    if named is None:
+        return instance
+    currents = replace(instance.ocean.currents, file=str(named))
+    return replace(instance, ocean=replace(instance.ocean, currents=currents))
+
+
+def sail(
+    instance: Instance,
+    *,
+    folder: Path | None = None,
+    straight_lines: bool = False,
+    limits: Limits | None = None,
+    seed: int = 0,
+    progress: ProgressCallback | None = None,
+) -> Voyage:
+    """Plan the legs of a mission in its ocean, or take straight lines where it has none.
+
+    Parameters
+    ----------
+    instance
+        The mission.
+    folder
+        Folder that the name of its file of currents is relative to.
+    straight_lines
+        Whether to ignore the ocean.
+    limits
+        Limits of all the work; the legs take half of the time at most.
+    seed
+        Seed of the random numbers.
+    progress
+        Told how many paths are planned.
+    """
+    if straight_lines or not instance.has_ocean:
+        return Voyage.straight(instance)
+    from fiveroute.tiers.pathing import at_sea
+
+    limits = limits or Limits()
+    until = limits.within(_SHARE_OF_PATHS * limits.time)
+    return at_sea(instance, folder, limits=until, seed=seed, progress=progress)
+
+
+def plan(
+    instance: Instance,
+    *,
+    fleet_size: int | None = None,
+    search: Search = "fleet",
+    bound: Bounding = "quick",
+    allocation: Allocation = "giant-route",
+    samples: int = 0,
+    quantile: float | None = None,
+    straight_lines: bool = False,
+    limits: Limits | float | None = None,
+    seed: int = 0,
+    progress: ProgressCallback | None = None,
+    folder: Path | None = None,
+) -> FleetPlan:
+    """Plan a fleet: how many AUVs, the route of each, and how far from optimal.
+
+    Parameters
+    ----------
+    instance
+        The mission.
+    fleet_size
+        Number of AUVs; None takes that of the instance, or else estimates it by (17).
+    search
+        ``fleet``, or the paper's pipeline alone.
+    bound
+        Where the upper bound comes from: ``none``, ``quick``, or ``exact``, which may improve
+        the plan as well.
+    allocation
+        How the paper's pipeline first shares the nodes out.
+    samples, quantile
+        Number of sampled leg times to plan with, for the search ``paper``, and the quantile of
+        a route's time that must fit the endurance; None takes their mean.
+    straight_lines
+        Whether to ignore the ocean.
+    limits
+        Seconds, or limits; None lets every search end by itself.
+    seed
+        Seed of the random numbers; without a time limit it determines the plan.
+    progress
+        Called as the work goes on.
+    folder
+        Folder that the name of the instance's file of currents is relative to.
+
+    Raises
+    ------
+    InputError
+        If the options contradict each other, a stop lies on land, or no fleet size is stated
+        and none can be estimated.
+    """
+    from fiveroute.mission import plan_mission
+
+    clock = Limits.of(limits).start()
+    voyage = sail(
+        instance,
+        folder=folder,
+        straight_lines=straight_lines,
+        limits=clock.limits,
+        seed=seed,
+        progress=progress,
+    )
+    planned = plan_mission(
+        voyage.instance,
+        travel=voyage.travel,
+        fleet_size=fleet_size,
+        allocation=allocation,
+        search=search,
+        bound=bound,
+        samples=samples,
+        quantile=quantile,
+        limits=clock.rest(),
+        seed=seed,
+        progress=progress,
+    )
+    return FleetPlan(voyage, planned.problem, planned.result, planned)
+
+
+def solve(
+    instance: Instance,
+    *,
+    method: str = "auto",
+    fleet_size: int | None = None,
+    straight_lines: bool = False,
+    limits: Limits | float | None = None,
+    seed: int = 0,
+    progress: ProgressCallback | None = None,
+    folder: Path | None = None,
+) -> FleetPlan:
+    """The best plan with a proof, or the best plan and bound in the time given.
+
+    Parameters
+    ----------
+    instance
+        The mission.
+    method
+        A name in `fiveroute.models.METHODS`, or ``auto``.
+    fleet_size
+        Number of AUVs; None takes that of the instance.
+    straight_lines
+        Whether to ignore the ocean.
+    limits
+        Seconds, or limits; None goes on until the plan is proved.
+    seed
+        Seed of the search for the plan that the proof starts from.
+    progress
+        Told of better plans and bounds.
+    folder
+        Folder that the name of the instance's file of currents is relative to.
+    """
+    from fiveroute.exact import solve_from_good_plan
+
+    clock = Limits.of(limits).start()
+    voyage = sail(
+        instance,
+        folder=folder,
+        straight_lines=straight_lines,
+        limits=clock.limits,
+        seed=seed,
+        progress=progress,
+    )
+    problem = voyage.instance.problem(fleet_size, voyage.travel)
+    result = solve_from_good_plan(problem, method, clock.rest(), seed=seed, progress=progress)
+    return FleetPlan(voyage, problem, result)
