@@ -10,12 +10,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from fiveroute.instance import Instance
-from fiveroute.plan import Plan, Route
-from fiveroute.problem import TeamOrienteering
+from fiveroute.plan import Route
 from fiveroute.result import GiantRouteResult, Status
 
 if TYPE_CHECKING:
-    from fiveroute.check import Violation
     from fiveroute.experiments.gap_table import GapRow, GapSummary
     from fiveroute.fleet_plan import FleetPlan
     from fiveroute.formats.plan_file import PlanFile
@@ -23,6 +21,7 @@ if TYPE_CHECKING:
     from fiveroute.paths.voyage import Voyage
     from fiveroute.sea.simulation import SimulationResult
     from fiveroute.tiers.pathing import PlannedPath
+    from fiveroute.verdict import Verdict
 
 __all__ = [
     "exit_code",
@@ -215,21 +214,14 @@ def print_simulation(answer: Mapping[str, Any]) -> None:
         click.echo(f"{name:<16}{text}")
 
 
-def verify_answer(
-    instance: Instance,
-    problem: TeamOrienteering,
-    filed: PlanFile,
-    violations: Sequence[Violation],
-) -> dict[str, Any]:
+def verify_answer(instance: Instance, filed: PlanFile, verdict: Verdict) -> dict[str, Any]:
     """The keys of `verify`: AUVs are counted from 0, nodes go by their ids."""
-    routes = [[v for v in route if v <= problem.n] for route in filed.plan.routes]
-    known = Plan.of(routes)
     return {
         "instance": instance.name,
-        "feasible": not violations,
-        "objective": known.objective(problem),
-        "completion_rate": _completion(known.objective(problem), problem.total_profit),
-        "durations": list(known.durations(problem)),
+        "feasible": verdict.feasible,
+        "objective": verdict.objective,
+        "completion_rate": verdict.completion_rate,
+        "durations": list(verdict.durations),
         "violations": [
             {
                 "kind": violation.kind,
@@ -237,7 +229,7 @@ def verify_answer(
                 "node": None if violation.node is None else filed.vertex_names[violation.node],
                 "amount": violation.amount,
             }
-            for violation in violations
+            for violation in verdict.violations
         ],
     }
 
@@ -246,13 +238,6 @@ def _start_id(instance: Instance) -> str:
     """Formats without ids number the start as 1; a native file does not name it."""
     numbered = all(node.id == str(i) for i, node in enumerate(instance.nodes, start=2))
     return "1" if numbered else "start"
-
-
-def _completion(objective: float | None, total: float) -> float | None:
-    """Theta, equation (31); with no data to collect, all of it is collected."""
-    if objective is None:
-        return None
-    return objective / total if total > 0.0 else 1.0
 
 
 def print_json(answer: Mapping[str, Any]) -> None:

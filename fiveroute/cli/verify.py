@@ -12,10 +12,6 @@ from fiveroute.cli import options
 if TYPE_CHECKING:
     from typing import NoReturn
 
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from fiveroute.check import Violation
     from fiveroute.instance import Instance
 
 __all__ = ["command"]
@@ -47,11 +43,10 @@ def command(
     Where the instance has an ocean, the paths of the plan are sailed through it; a plan without
     paths takes the fastest ones. Exit code 0 for a feasible plan, 1 for one with violations.
     """
-    from fiveroute.check import check, check_claims
     from fiveroute.cli import answers
-    from fiveroute.cli.judging import judged_legs
     from fiveroute.formats import read_instance
     from fiveroute.formats.plan_file import read_plan
+    from fiveroute.verdict import judge
 
     if (plan is None) == (certificate is None):
         raise click.UsageError("give either PLAN or --certificate")
@@ -60,21 +55,13 @@ def command(
         _confirm(ctx, mission, instance, certificate, time_limit, as_json)
     assert plan is not None
     filed = read_plan(plan, mission)
-    travel: NDArray[np.float64] | None = None
-    violations: list[Violation] = []
-    if mission.has_ocean and not straight_lines:
-        travel, violations = judged_legs(mission, filed, instance.parent)
-    size = mission.fleet_size or max(len(filed.routes), 1)
-    problem = mission.problem(size, travel)
-    violations = violations + check(problem, filed.plan)
-    if not violations:
-        violations = check_claims(problem, filed.plan, filed.objective, filed.durations)
-    answer = answers.verify_answer(mission, problem, filed, violations)
+    verdict = judge(mission, filed, instance.parent, straight_lines=straight_lines)
+    answer = answers.verify_answer(mission, filed, verdict)
     if as_json:
         answers.print_json(answer)
     else:
         answers.print_verdict(answer)
-    ctx.exit(1 if violations else 0)
+    ctx.exit(0 if verdict.feasible else 1)
 
 
 def _confirm(
