@@ -4,7 +4,7 @@ VENV ?= .venv
 WORKERS ?= 2
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint types check lock clean
+.PHONY: demo test lint types check docs lock clean
 
 demo: $(VENV)/.installed
 	$(BIN)/fiveroute plan instances/paper/scenario-01.json
@@ -21,6 +21,9 @@ types: $(VENV)/.developing
 
 check: lint types test
 
+docs: $(VENV)/.developing
+	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going docs docs/_build/html
+
 $(VENV)/.installed: pyproject.toml requirements.lock
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install --quiet --disable-pip-version-check --constraint requirements.lock --editable .
@@ -35,5 +38,5 @@ lock:
 	uv pip compile --universal --quiet --no-header --extra dev pyproject.toml --output-file requirements.lock
 
 clean:
-	rm -rf $(VENV) build dist *.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) build dist docs/_api docs/_build *.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,8 +1,8 @@
 """The pure combinatorial problem: team orienteering with service times.
 
 This is all that `fiveroute.models` and `fiveroute.heuristics` see. Vertex 0 is the start
-N_1 of the paper, vertices 1 to n are its sensor nodes N_2 to N_(|N|-1), and vertex n + 1
-is the destination N_|N|. Times are in seconds and may be asymmetric: a current makes the
+N_1 of the paper, vertices 1 to n are its sensor nodes, from N_2 on, and vertex n + 1 is the
+destination, the last of its N. Times are in seconds and may be asymmetric: a current makes the
 way back longer than the way out. Nothing is assumed about the triangle inequality.
 """
 
