@@ -2,7 +2,7 @@
 
 It shares no numerics with the planners. The current is taken from its formula or its file, not
 from a planner's grid; the time along a path, equation (22), comes from Simpson's rule on short
-pieces; obstacles and land are tested as geometries.
+pieces; what lies within obstacles and land is measured exactly, shape by shape.
 """
 
 from __future__ import annotations
@@ -16,13 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.check import Violation
-from fiveroute.instance import Circle, Instance
+from fiveroute.crossings import metres_within
+from fiveroute.instance import Circle, Instance, Polygon
 from fiveroute.ocean.currents import Superposition
 from fiveroute.plan import Plan
 
 if TYPE_CHECKING:
-    from shapely.geometry.base import BaseGeometry
-
     from fiveroute.ocean.currents import Current
 
 __all__ = ["check_paths", "sailing_time", "times_of_paths"]
@@ -71,7 +70,8 @@ def check_paths(
         ``collision`` for so many metres inside obstacles or land; ``impassable`` where
         the current is too strong to sail a leg.
     """
-    points, forbidden = instance.points, _forbidden(instance)
+    points = instance.points
+    forbidden = (*instance.ocean.obstacles, *instance.ocean.land)
     if times is None:
         times = times_of_paths(instance, plan, tracks, current)
     violations = []
@@ -146,28 +146,15 @@ def sailing_time(track: Floats, current: Current, speed: float) -> float:
     return float(slowness @ piece)
 
 
-def _forbidden(instance: Instance) -> BaseGeometry:
-    """Obstacles and land as one geometry; a circle as a polygon inscribed in it."""
-    from shapely import Point, Polygon, union_all
-
-    parts = [
-        Point(shape.x, shape.y).buffer(shape.radius, quad_segs=64)
-        if isinstance(shape, Circle)
-        else Polygon(shape.polygon)
-        for shape in (*instance.ocean.obstacles, *instance.ocean.land)
-    ]
-    return union_all(parts)
-
-
-def _faults(track: Floats, ends: Floats, forbidden: BaseGeometry) -> list[tuple[str, float]]:
+def _faults(
+    track: Floats, ends: Floats, forbidden: Sequence[Circle | Polygon]
+) -> list[tuple[str, float]]:
     """What is wrong with a leg between two points, wherever it takes place."""
-    from shapely import LineString
-
     faults = []
     missed = float(np.hypot(*(track[[0, -1]] - ends).T).max())
     if missed > _AT_POINT:
         faults.append(("path", missed))
-    inside = float(LineString(track).intersection(forbidden).length)
+    inside = metres_within(track, forbidden)
     if inside > _TOUCH * max(_length(track), 1.0):
         faults.append(("collision", inside))
     return faults

@@ -16,6 +16,7 @@ from fiveroute.instance import Circle, Instance, Ocean, Polygon
 from fiveroute.ocean.barriers import Barriers, clearance, no_barriers
 from fiveroute.ocean.current_grid import Region
 from fiveroute.ocean.land_mask import LandDistance
+from fiveroute.ocean.simple_polygon import first_conflict
 
 __all__ = ["barriers_of", "refuse_points_inside"]
 
@@ -132,13 +133,12 @@ def _with_zones(open_water: Barriers, zones: dict[str, Circle | Polygon]) -> Bar
 
 
 def _require_simple(name: str, polygon: Polygon) -> None:
-    import shapely
-
-    shape = shapely.Polygon(polygon.polygon)
-    if not shape.is_valid:
-        reason = shapely.is_valid_reason(shape)
+    conflict = first_conflict(np.array(polygon.polygon, dtype=np.float64))
+    if conflict is not None:
+        x, y = conflict
         raise InputError(
-            f"is no simple polygon ({reason}); its edges must not cross or touch one another",
+            f"is no simple polygon (see the corner {x:.10g}, {y:.10g}); its edges must not "
+            "cross or touch one another",
             field=name,
             value=polygon.polygon,
         )

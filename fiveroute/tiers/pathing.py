@@ -42,6 +42,7 @@ from fiveroute.paths.leg_table import LegTable
 from fiveroute.paths.legs import Waters, track_clearance
 from fiveroute.paths.path import Path, track_path
 from fiveroute.paths.stencil import grid_path, grid_paths
+from fiveroute.paths.thinning import thinned
 from fiveroute.paths.uniform_flow import are_straight
 from fiveroute.paths.voyage import Voyage
 
@@ -294,9 +295,7 @@ def plan_legs(
 
 def _thinned(waters: Waters, track: Floats) -> Floats:
     """A track with as few waypoints as keep it where it is, or as it was if that collides."""
-    from shapely import LineString
-
-    few = np.array(LineString(track).simplify(_OFF_TRACK).coords)
+    few = thinned(track, _OFF_TRACK)
     return few if track_clearance(waters.barriers, few) >= 0.0 else track
 
 

@@ -73,16 +73,16 @@ def test_the_sense_of_rotation_does_not_matter() -> None:
 
 
 @pytest.mark.parametrize(
-    ("polygon", "reason"),
+    "polygon",
     [
-        (BOW_TIE, "Self-intersection"),
-        (Polygon(((0.0, 0.0), (1.0, 1.0), (2.0, 2.0))), ".*"),  # no area
-        (Polygon(((0.0, 0.0), (0.0, 0.0), (0.0, 0.0))), ".*"),
+        BOW_TIE,
+        Polygon(((0.0, 0.0), (1.0, 1.0), (2.0, 2.0))),  # no area
+        Polygon(((0.0, 0.0), (0.0, 0.0), (0.0, 0.0))),
     ],
 )
-def test_a_polygon_must_be_simple(polygon: Polygon, reason: str) -> None:
+def test_a_polygon_must_be_simple(polygon: Polygon) -> None:
     circle = Circle(0.0, 0.0, 1.0)
-    with pytest.raises(InputError, match=rf"^ocean.obstacles\[1\]: .*no simple polygon \({reason}"):
+    with pytest.raises(InputError, match=r"^ocean.obstacles\[1\]: .*no simple polygon \(see"):
         barriers_of(Ocean(obstacles=(circle, polygon)), REGION)
     with pytest.raises(InputError, match=r"^ocean.land\[0\]: .*no simple polygon"):
         barriers_of(Ocean(land=(polygon,)), REGION)
