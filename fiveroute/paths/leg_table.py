@@ -75,10 +75,8 @@ class LegTable:
         """The legs between some of the stops, in their order."""
         place = {stop: k for k, stop in enumerate(stops)}
         paths = {
-            (place[i], place[j]): (float(self.times[i, j]), self.tracks[begin:end])
-            for (i, j), (begin, end) in zip(
-                self.planned(), itertools.pairwise(self.first), strict=True
-            )
+            (place[i], place[j]): (float(self.times[i, j]), track)
+            for (i, j), track in self.planned_tracks()
             if i in place and j in place
         }
         return LegTable.of(len(stops), paths)
@@ -92,3 +90,8 @@ class LegTable:
     def planned(self) -> Iterable[Leg]:
         """The legs that have a track."""
         return ((int(tail), int(head)) for tail, head in self.legs)
+
+    def planned_tracks(self) -> Iterable[tuple[Leg, Floats]]:
+        """The legs that have a track, and its waypoints in metres, shape (k, 2)."""
+        pieces = itertools.pairwise(self.first.tolist())
+        return zip(self.planned(), (self.tracks[first:end] for first, end in pieces), strict=True)

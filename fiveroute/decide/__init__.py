@@ -1,0 +1,1 @@
+"""What is decided before departure: how many AUVs, when, how fast, and how cautiously."""

@@ -1,0 +1,302 @@
+"""Plans against an ensemble: chosen on some of its members, judged on the others.
+
+A member is one ocean that may be: a file of a forecast centre's ensemble, or a truth drawn from
+the vortices of the instance. Paths are planned in the instance's own current; in a member their
+legs take other times. An AUV on its way knows the current as far as the next node and from there
+home (a nowcast). It leaves a node out where it could not do both in time: that is its recourse.
+
+The candidates are fleet-search plans for the planned times, for the mean of the training members,
+and for quantiles of each leg's time over them, which are more and more cautious. The one of the
+best mean over the worst share alpha of the training members is taken, the conditional value at risk
+
+    CVaR_alpha = mean of the ceil(alpha K) lowest completion rates of K members,
+
+(Rockafellar and Uryasev 2000, doi 10.21314/JOR.2000.038); alpha = 1 is the mean. What it is worth
+is told by the held-out members, which it has never seen.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fiveroute.errors import InputError
+from fiveroute.instance import Instance
+from fiveroute.limits import Limits, Progress, ProgressCallback
+from fiveroute.mission import plan_mission
+from fiveroute.ocean.currents import LambVortices, Superposition
+from fiveroute.ocean.stated import stated_current
+from fiveroute.ocean.uncertain_ocean import VortexUncertainty, draw_truth
+from fiveroute.paths.legs import track_time
+from fiveroute.paths.voyage import Voyage
+from fiveroute.plan import Plan
+from fiveroute.problem import TeamOrienteering
+from fiveroute.tiers.pathing import waters_of
+
+__all__ = [
+    "Candidate",
+    "EnsemblePlan",
+    "cvar",
+    "drawn_members",
+    "filed_members",
+    "member_times",
+    "plan_against_ensemble",
+    "recourse_completion",
+]
+
+Floats = NDArray[np.float64]
+
+_QUANTILES = (0.5, 0.6, 0.7, 0.8, 0.9)
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A plan and what it collects in every member.
+
+    Parameters
+    ----------
+    name
+        What it was planned for.
+    plan
+        Its routes.
+    training, held_out
+        Completion rates in the members of either kind.
+    """
+
+    name: str
+    plan: Plan
+    training: tuple[float, ...]
+    held_out: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class EnsemblePlan:
+    """The candidates, the best of the training members first.
+
+    Parameters
+    ----------
+    alpha
+        Share of the worst training members that decides.
+    candidates
+        All candidates in the order of their CVaR in the training members.
+    """
+
+    alpha: float
+    candidates: tuple[Candidate, ...]
+
+    @property
+    def chosen(self) -> Candidate:
+        """The plan to sail."""
+        return self.candidates[0]
+
+
+def plan_against_ensemble(
+    voyage: Voyage,
+    times: Sequence[Floats],
+    held_out: int,
+    *,
+    alpha: float = 0.2,
+    fleet_size: int | None = None,
+    limits: Limits | None = None,
+    seed: int = 0,
+    progress: ProgressCallback | None = None,
+) -> EnsemblePlan:
+    """Choose a plan on the first members, and judge it on the last ones.
+
+    Parameters
+    ----------
+    voyage
+        The mission and its planned leg times.
+    times
+        Leg times of every member in seconds, shape (n + 2, n + 2) each, see `member_times`.
+    held_out
+        Number of members, the last ones, that are not planned with.
+    alpha
+        Share of the worst training members that decides, above 0 and at most 1.
+    fleet_size
+        Number of AUVs; None takes that of the instance, or else estimates it.
+    limits
+        When to stop, shared among the candidates.
+    seed
+        Seed of the random numbers.
+    progress
+        Told what is at work.
+
+    Raises
+    ------
+    InputError
+        If no member is left to train with or to test on, or alpha is out of range.
+    """
+    if not 0 < held_out < len(times):
+        raise InputError(
+            f"must leave a member to plan with and one to test on; there are {len(times)}",
+            field="held_out",
+            value=held_out,
+        )
+    if not 0.0 < alpha <= 1.0:
+        raise InputError("must be above 0 and at most 1", field="alpha", value=alpha)
+    clock = (limits or Limits()).start()
+    training = np.array(times[: len(times) - held_out])
+    wanted = _wanted(voyage, training)
+    candidates: list[Candidate] = []
+    for done, (name, travel) in enumerate(wanted.items()):
+        if candidates and clock.expired:
+            break
+        if progress is not None:
+            progress(Progress(clock.seconds, message=f"plan for {name}"))
+        until = clock.limits.within(clock.left / (len(wanted) - done))
+        planned = plan_mission(
+            voyage.instance, travel=travel, fleet_size=fleet_size, limits=until, seed=seed
+        )
+        fleet_size = planned.problem.fleet_size
+        if planned.result.plan is None:
+            continue
+        rates = [
+            recourse_completion(planned.problem, planned.result.plan, travel) for travel in times
+        ]
+        split = len(training)
+        candidates.append(
+            Candidate(name, planned.result.plan, tuple(rates[:split]), tuple(rates[split:]))
+        )
+    if not candidates:
+        raise InputError(
+            "no AUV reaches the destination in time; give it a longer endurance",
+            field="fleet.endurance",
+        )
+    candidates.sort(key=lambda candidate: -cvar(candidate.training, alpha))
+    return EnsemblePlan(alpha, tuple(candidates))
+
+
+def _wanted(voyage: Voyage, training: Floats) -> dict[str, Floats]:
+    """Leg times to plan with, by name."""
+    instance = voyage.instance
+    planned = instance.travel if voyage.travel is None else voyage.travel
+    quantiles = {
+        f"the {100 * q:.0f} % quantile": np.quantile(training, q, axis=0, method="higher")
+        for q in _QUANTILES
+    }
+    return {"the planned times": planned, "the mean": training.mean(axis=0), **quantiles}
+
+
+def recourse_completion(problem: TeamOrienteering, plan: Plan, travel: Floats) -> float:
+    """Completion rate of a plan whose legs take other times; AUVs turn home when they must.
+
+    Parameters
+    ----------
+    problem
+        The problem.
+    plan
+        Its routes.
+    travel
+        What legs really take, in seconds, shape (n + 2, n + 2).
+    """
+    collected: list[int] = []
+    home = problem.destination
+    for route, budget in zip(plan.routes, problem.allowed, strict=True):
+        now, place = 0.0, 0
+        for node in route:
+            there = now + travel[place, node] + problem.service[node]
+            if there + travel[node, home] <= budget:
+                now, place = there, node
+                collected.append(node)
+    total = problem.total_profit
+    return problem.collected(collected) / total if total > 0.0 else 1.0
+
+
+def cvar(rates: Sequence[float], alpha: float) -> float:
+    """Mean of the worst share alpha of some completion rates, one of them at least."""
+    worst = sorted(rates)[: max(math.ceil(alpha * len(rates) - 1e-9), 1)]
+    return float(np.mean(worst))
+
+
+def member_times(voyage: Voyage, member: Superposition) -> Floats:
+    """What the planned paths of all legs take in another current, in seconds, shape (n + 2, n + 2).
+
+    A leg that cannot be sailed there is infinitely long. Without planned paths legs are straight.
+    """
+    instance = voyage.instance
+    grid, speed = waters_of(instance, member).grid, instance.fleet.speed
+    size = len(instance.nodes) + 2
+    times = np.full((size, size), np.inf)
+    np.fill_diagonal(times, 0.0)
+    for leg, track in _tracks(voyage):
+        times[leg] = track_time(grid, track, 0.0, speed)
+    return times
+
+
+def _tracks(voyage: Voyage) -> Iterable[tuple[tuple[int, int], Floats]]:
+    """Waypoints of every leg in metres."""
+    if voyage.legs is not None:
+        return voyage.legs.planned_tracks()
+    points = voyage.instance.points
+    last = len(points) - 1
+    legs = ((i, j) for i in range(last) for j in range(1, last + 1) if i != j)
+    return ((leg, points[list(leg)]) for leg in legs)
+
+
+def filed_members(instance: Instance, files: Sequence[Path], folder: Path) -> list[Superposition]:
+    """Members that files of currents hold, each in the place of the instance's own.
+
+    Parameters
+    ----------
+    instance
+        The mission.
+    files
+        CF netCDF files.
+    folder
+        Folder that names in the instance are relative to.
+    """
+    members = []
+    for file in files:
+        currents = replace(instance.ocean.currents, file=str(file.absolute()))
+        ocean = replace(instance.ocean, currents=currents)
+        members.append(stated_current(replace(instance, ocean=ocean), folder))
+    return members
+
+
+def drawn_members(
+    instance: Instance,
+    count: int,
+    uncertainty: VortexUncertainty,
+    rng: np.random.Generator,
+    folder: Path | None = None,
+) -> list[Superposition]:
+    """Truths drawn from the vortices of an instance; its other currents stay as they are.
+
+    Parameters
+    ----------
+    instance
+        The mission.
+    count
+        Number of members.
+    uncertainty
+        How far they may be from the instance's current.
+    rng
+        Random numbers.
+    folder
+        Folder that names in the instance are relative to.
+
+    Raises
+    ------
+    InputError
+        If the instance states no vortices.
+    """
+    stated = stated_current(instance, folder)
+    vortices = [part for part in stated.parts if isinstance(part, LambVortices)]
+    if not vortices:
+        raise InputError(
+            "states none to draw from; name the files of an ensemble",
+            field="ocean.currents.vortices",
+        )
+    others = tuple(part for part in stated.parts if not isinstance(part, LambVortices))
+    low, high = instance.points.min(axis=0), instance.points.max(axis=0)
+    region = (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
+    return [
+        Superposition((*others, *(draw_truth(each, uncertainty, region, rng) for each in vortices)))
+        for _ in range(count)
+    ]

@@ -1,0 +1,116 @@
+"""One quantity varied, and what becomes of the plan: a row a value.
+
+All questions give the same kind of answer, so that they share one table, one picture and one way to
+be interrupted: what is done by then is the answer.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fiveroute.fleet_plan import FleetPlan
+from fiveroute.limits import Clock, Limits, Progress, ProgressCallback
+
+__all__ = ["Row", "Sweep", "figures", "vary"]
+
+Value = float | int | str | None
+Row = Mapping[str, Value]
+
+
+@dataclass(frozen=True, slots=True)
+class Sweep:
+    """What came of every value.
+
+    Parameters
+    ----------
+    instance
+        Name of the mission.
+    quantity
+        Column that was varied.
+    unit
+        Its unit; empty without one.
+    rows
+        A row a value, all with the same columns.
+    marked
+        The value to point out; None without one.
+    because
+        Why, in a few words.
+    """
+
+    instance: str
+    quantity: str
+    unit: str
+    rows: tuple[Row, ...]
+    marked: Value = None
+    because: str = ""
+
+    def marking(self, value: Value, because: str) -> Sweep:
+        """The same with a value pointed out."""
+        return replace(self, marked=value, because=because)
+
+    def best(self, column: str) -> Row | None:
+        """The first row of the greatest figure in a column; None where all are missing."""
+        known = [row for row in self.rows if _number(row[column]) is not None]
+        return max(known, key=lambda row: _number(row[column]) or -math.inf, default=None)
+
+
+def vary(
+    instance: str,
+    quantity: str,
+    unit: str,
+    values: Sequence[float],
+    row: Callable[[float, Limits], Row],
+    *,
+    clock: Clock,
+    progress: ProgressCallback | None = None,
+) -> Sweep:
+    """Work a row out for every value, in their order, each in its share of the time that is left.
+
+    Parameters
+    ----------
+    instance, quantity, unit
+        See `Sweep`.
+    values
+        The values.
+    row
+        The further columns of a value.
+    clock
+        When to stop; one row is worked out in any case.
+    progress
+        Told what is at work.
+    """
+    rows: list[Row] = []
+    for done, value in enumerate(values):
+        if rows and clock.expired:
+            break
+        if progress is not None:
+            message = f"{quantity.replace('_', ' ')} {value:g} ({done + 1} of {len(values)})"
+            progress(Progress(clock.seconds, message=message))
+        limits = clock.limits.within(clock.left / (len(values) - done))
+        rows.append({quantity: value, **row(value, limits)})
+    return Sweep(instance, quantity, unit, tuple(rows))
+
+
+def figures(plan: FleetPlan) -> dict[str, Value]:
+    """The columns of a plan that sweeps have in common."""
+    total = sum(node.data for node in plan.instance.nodes)
+    share = None if plan.bound is None else plan.bound / total if total > 0.0 else 1.0
+    return {
+        "status": plan.status.value,
+        "objective": plan.objective,
+        "completion_rate": plan.completion_rate,
+        "bound": plan.bound,
+        "bound_rate": None if share is None else min(share, 1.0),
+        "gap": plan.gap,
+        "nodes": sum(map(len, plan.routes)),
+        "mean_duration": float(np.mean(plan.durations)) if plan.durations else None,
+        "unreachable": len(plan.unreachable),
+    }
+
+
+def _number(value: Value) -> float | None:
+    return float(value) if isinstance(value, (int, float)) else None
