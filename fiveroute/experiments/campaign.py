@@ -1,18 +1,17 @@
 """Campaigns: many runs on many cores or machines, with the same numbers wherever they run.
 
 The runs of a simulation are split into chunks. Each run draws its luck from the seed and its own
-number, so that it does not matter who sails it, or in which order. On one machine joblib shares the
-chunks out, on a cluster Dask: a worker that dies takes nothing with it but time.
+number, so that it does not matter who sails it, or in which order.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Mapping
 from contextlib import closing
 from dataclasses import dataclass, replace
 from typing import Any
 
-from fiveroute.errors import InputError
+from fiveroute.experiments.sharing import share_out
 from fiveroute.limits import Limits, Progress, ProgressCallback
 from fiveroute.plan import Plan
 from fiveroute.sea.simulation import SimulationResult, simulate_fleet
@@ -20,18 +19,13 @@ from fiveroute.sea.theatre import Theatre
 
 __all__ = ["Campaign", "sail_campaign"]
 
-Part = Callable[[int, int], SimulationResult]
 Chunks = list[tuple[int, int]]
-Share = Callable[[Part, Chunks], Generator[SimulationResult]]
 
 _CHUNKS_A_WORKER = 4
 """So many that all workers end at about the same time, and progress is seen."""
 
 _ON_CLUSTER = 8
 """Workers of a cluster that chunks are made for."""
-
-_PATIENCE = 10.0
-"""Seconds that a scheduler may take to answer."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,9 +77,9 @@ def sail_campaign(
     """
     clock = (limits or Limits()).start()
     chunks = _chunks(campaign.runs, workers if scheduler is None else _ON_CLUSTER)
-    share = _on_cluster(scheduler) if scheduler is not None else _on_machine(workers)
     parts: list[SimulationResult] = []
-    with closing(share(campaign.part, chunks)) as results:
+    shared = share_out(campaign.part, chunks, workers=workers, scheduler=scheduler)
+    with closing(shared) as results:
         for part in results:
             parts.append(part)
             done = sum(len(part.runs) for part in parts)
@@ -102,39 +96,3 @@ def _chunks(runs: int, workers: int) -> Chunks:
     """First run and number of runs of every chunk."""
     size = max(runs // (workers * _CHUNKS_A_WORKER), 1)
     return [(first, min(size, runs - first)) for first in range(0, runs, size)]
-
-
-def _on_machine(workers: int) -> Share:
-    def share(part: Part, chunks: Chunks) -> Generator[SimulationResult]:
-        if workers == 1:
-            yield from (part(*chunk) for chunk in chunks)
-            return
-        from joblib import Parallel, delayed
-
-        pool = Parallel(n_jobs=workers, return_as="generator_unordered")
-        yield from pool(delayed(part)(*chunk) for chunk in chunks)
-
-    return share
-
-
-def _on_cluster(address: str) -> Share:
-    try:
-        from distributed import Client, as_completed
-    except ImportError:
-        raise InputError(
-            "needs Dask; install fiveroute[cluster]", field="scheduler", value=address
-        ) from None
-
-    def share(part: Part, chunks: Chunks) -> Generator[SimulationResult]:
-        try:
-            client = Client(address, timeout=_PATIENCE, set_as_default=False)
-        except (OSError, ValueError) as error:
-            raise InputError(
-                f"no Dask scheduler answers there ({error})", field="scheduler", value=address
-            ) from None
-        with client:
-            futures = [client.submit(part, *chunk, pure=False) for chunk in chunks]
-            for future in as_completed(futures, loop=client.loop):
-                yield future.result()
-
-    return share

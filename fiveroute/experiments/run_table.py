@@ -1,10 +1,11 @@
-"""Tables of simulated runs, and logs of what happened in them."""
+"""Tables, those of simulated runs above all, and logs of what happened in them."""
 
 from __future__ import annotations
 
 import csv
 import io
 import json
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from fiveroute.formats.files import write_text_atomically, written_whole
 from fiveroute.instance import Instance
 from fiveroute.sea.simulation import SimulationResult
 
-__all__ = ["event_lines", "require_table", "write_table"]
+__all__ = ["event_lines", "require_table", "write_rows", "write_table"]
 
 
 def event_lines(instance: Instance, result: SimulationResult) -> str:
@@ -35,8 +36,8 @@ def event_lines(instance: Instance, result: SimulationResult) -> str:
 
 def require_table(path: Path) -> None:
     """Refuse a table that could not be written, before any time is spent."""
-    if path.suffix not in (".parquet", ".csv"):
-        raise InputError("a table ends in .parquet or .csv", field="output", value=str(path))
+    if path.suffix not in (".parquet", ".csv", ".md"):
+        raise InputError("a table ends in .parquet, .csv or .md", field="output", value=str(path))
     if path.suffix == ".parquet":
         try:
             import pyarrow.parquet  # noqa: F401
@@ -64,18 +65,50 @@ def write_table(result: SimulationResult, path: Path, force: bool = False) -> No
         }
         for run in result.runs
     ]
+    write_rows(rows, path, force)
+
+
+def write_rows(rows: Sequence[Mapping[str, Any]], path: Path, force: bool = False) -> None:
+    """Write a table, whole or not at all; its suffix chooses the format.
+
+    Parameters
+    ----------
+    rows
+        One at least, all with the same columns; None is what is unknown.
+    path
+        The file, .csv, .md or .parquet.
+    force
+        Overwrite an existing file.
+    """
     if path.suffix == ".csv":
-        text = io.StringIO()
-        writer = csv.DictWriter(text, rows[0], lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-        write_text_atomically(path, text.getvalue(), force)
-        return
+        write_text_atomically(path, _csv(rows), force)
+    elif path.suffix == ".md":
+        write_text_atomically(path, _markdown(rows), force)
+    else:
+        _write_parquet(rows, path)
+
+
+def _csv(rows: Sequence[Mapping[str, Any]]) -> str:
+    text = io.StringIO()
+    writer = csv.DictWriter(text, rows[0], lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def _markdown(rows: Sequence[Mapping[str, Any]]) -> str:
+    header = list(rows[0])
+    cells = [["" if value is None else str(value) for value in row.values()] for row in rows]
+    lines = [header, ["---"] * len(header), *cells]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def _write_parquet(rows: Sequence[Mapping[str, Any]], path: Path) -> None:
     import pyarrow
     import pyarrow.parquet
 
     try:
         with written_whole(path) as draft:
-            pyarrow.parquet.write_table(pyarrow.Table.from_pylist(rows), draft)
+            pyarrow.parquet.write_table(pyarrow.Table.from_pylist(list(rows)), draft)
     except OSError as error:
         raise InputError(f"cannot be written ({error.strerror})", file=path) from None

@@ -80,7 +80,7 @@ def test_a_short_answer_for_people(call: Any, tiny: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("--output", "runs.xlsx"), "ends in .parquet or .csv"),
+        (("--output", "runs.xlsx"), "ends in .parquet, .csv or .md"),
         (("--planner", "nobody"), "nobody"),
         (("--loss", "2"), "2"),
     ],

@@ -65,7 +65,7 @@ def test_a_cluster_that_loses_a_worker_gives_the_same_numbers() -> None:
 
 def test_no_scheduler_answers(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed")
-    monkeypatch.setattr("fiveroute.experiments.campaign._PATIENCE", 0.5)
+    monkeypatch.setattr("fiveroute.experiments.sharing._PATIENCE", 0.5)
     with pytest.raises(InputError, match="no Dask scheduler answers"):
         sail_campaign(campaign(), scheduler="tcp://127.0.0.1:1")
 
@@ -105,5 +105,5 @@ def test_a_row_a_run(tmp_path: Path, suffix: str) -> None:
 
 
 def test_a_table_of_another_kind_is_refused() -> None:
-    with pytest.raises(InputError, match=r"ends in \.parquet or \.csv"):
+    with pytest.raises(InputError, match=r"ends in \.parquet, \.csv or \.md"):
         require_table(Path("runs.xlsx"))

@@ -1,0 +1,82 @@
+"""Work shared out: the same tasks in this process, on all cores, or on a cluster.
+
+Answers come as they are done, in any order. On one machine joblib shares the tasks out, on a
+cluster Dask: a worker that dies takes nothing with it but time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Sequence
+from typing import Any, TypeVar
+
+from fiveroute.errors import InputError
+
+__all__ = ["share_out"]
+
+T = TypeVar("T")
+
+_PATIENCE = 10.0
+"""Seconds that a scheduler may take to answer."""
+
+
+def share_out(
+    work: Callable[..., T],
+    tasks: Sequence[tuple[Any, ...]],
+    *,
+    workers: int = 1,
+    scheduler: str | None = None,
+) -> Generator[T]:
+    """Answers of ``work(*task)``, as they are done.
+
+    Parameters
+    ----------
+    work
+        What is to be done; it travels to the workers, with all that it holds.
+    tasks
+        Its arguments, task by task.
+    workers
+        Processes on this machine; 1 works in this one, in order.
+    scheduler
+        Address of a Dask scheduler, as ``tcp://host:8786``; None stays on this machine.
+
+    Raises
+    ------
+    InputError
+        If Dask is not installed, or no scheduler answers.
+    """
+    if scheduler is not None:
+        return _on_cluster(work, tasks, scheduler)
+    return _on_machine(work, tasks, workers)
+
+
+def _on_machine(
+    work: Callable[..., T], tasks: Sequence[tuple[Any, ...]], workers: int
+) -> Generator[T]:
+    if workers == 1:
+        yield from (work(*task) for task in tasks)
+        return
+    from joblib import Parallel, delayed
+
+    pool = Parallel(n_jobs=workers, return_as="generator_unordered", batch_size=1)
+    yield from pool(delayed(work)(*task) for task in tasks)
+
+
+def _on_cluster(
+    work: Callable[..., T], tasks: Sequence[tuple[Any, ...]], address: str
+) -> Generator[T]:
+    try:
+        from distributed import Client, as_completed
+    except ImportError:
+        raise InputError(
+            "needs Dask; install fiveroute[cluster]", field="scheduler", value=address
+        ) from None
+    try:
+        client = Client(address, timeout=_PATIENCE, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise InputError(
+            f"no Dask scheduler answers there ({error})", field="scheduler", value=address
+        ) from None
+    with client:
+        futures = [client.submit(work, *task, pure=False) for task in tasks]
+        for future in as_completed(futures, loop=client.loop):
+            yield future.result()
