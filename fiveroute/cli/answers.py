@@ -14,7 +14,6 @@ from fiveroute.plan import Route
 from fiveroute.result import GiantRouteResult, Status
 
 if TYPE_CHECKING:
-    from fiveroute.experiments.gap_table import GapRow, GapSummary
     from fiveroute.fleet_plan import FleetPlan
     from fiveroute.formats.plan_file import PlanFile
     from fiveroute.mission import MissionPlan
@@ -30,7 +29,6 @@ __all__ = [
     "giant_route_answer",
     "named",
     "path_answer",
-    "print_gaps",
     "print_giant_route",
     "print_json",
     "print_path",
@@ -267,30 +265,6 @@ def print_giant_route(answer: Mapping[str, Any]) -> None:
     click.echo(f"{'optimality gap':<16}{gap_text(answer['gap'])}")
 
 
-def print_gaps(rows: Sequence[GapRow], summary: GapSummary) -> None:
-    """Print a gap table for people."""
-    cells = [
-        (
-            row.instance,
-            row.nodes,
-            row.fleet_size,
-            _number(row.heuristic),
-            _number(row.bound),
-            _number(row.best_known),
-            gap_text(row.gap),
-            f"{row.seconds:.1f} s",
-        )
-        for row in rows
-    ]
-    header = ("instance", "nodes", "AUVs", "plan", "bound", "best known", "gap", "time")
-    print_table("", header, cells, words=(0,))
-    click.echo(
-        f"{summary.instances} instances, {summary.proved} proved optimal, "
-        f"{summary.reached} at the best known value; gap mean {gap_text(summary.mean_gap)}, "
-        f"median {gap_text(summary.median_gap)}, worst {gap_text(summary.worst_gap)}"
-    )
-
-
 def print_verdict(answer: Mapping[str, Any]) -> None:
     """Print the judge's verdict for people."""
     verdict = "feasible" if answer["feasible"] else "NOT feasible"
@@ -302,10 +276,6 @@ def print_verdict(answer: Mapping[str, Any]) -> None:
         places += [f"node {node}"] if node is not None else []
         what = ", ".join([violation["kind"].replace("_", " "), *places])
         click.echo(f"  {what}: {violation['amount']:.6g}")
-
-
-def _number(value: float | None) -> str:
-    return "-" if value is None else f"{value:.6g}"
 
 
 def _figures(answer: Mapping[str, Any]) -> Iterator[tuple[str, str]]:

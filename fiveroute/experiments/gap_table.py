@@ -1,60 +1,57 @@
-"""How far is the planner from optimal? A row an instance, and a summary.
+"""How far from optimal, over many instances: the summary of a gap table, and the table itself.
 
-Every row sets the planner's plan against the best proven bound that could be had in the
-time given: the quick bound, and that of an exact method started from the plan.
+Solvers are compared by their shortfall, (best known - value) / best known. Who has no answer, or
+one that the judge rejects, has collected nothing: a shortfall of 1.
 """
 
 from __future__ import annotations
 
 import csv
-import io
-import math
 import statistics
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from fiveroute.errors import InputError
-from fiveroute.limits import Limits, ProgressCallback
-from fiveroute.mission import MissionPlan, plan_mission
-from fiveroute.paths.voyage import Voyage
-from fiveroute.result import Result, Status, is_closed, optimality_gap
+from fiveroute.experiments.gap_row import GapRow
+from fiveroute.result import Status
 
-__all__ = ["GapRow", "GapSummary", "gap_row", "gap_table_csv", "read_reference", "summarise"]
+__all__ = [
+    "GapSummary",
+    "SolverSummary",
+    "flat_rows",
+    "proof_times",
+    "read_reference",
+    "shortfalls",
+    "summarise",
+]
 
 
 @dataclass(frozen=True, slots=True)
-class GapRow:
-    """One instance.
+class SolverSummary:
+    """One solver over all instances; shortfalls are fractions.
 
     Parameters
     ----------
-    instance
-        Its name.
-    nodes, fleet_size
-        Number of sensor nodes and of AUVs.
-    heuristic
-        Data that the planner's plan collects; None without a plan.
-    bound
-        Least proven upper bound; None where none was computed.
-    best_known
-        Best value known: of the planner, the exact method or the reference table.
-    gap
-        (bound - heuristic) / heuristic; None without both.
-    status
-        How well the plan is known: ``optimal`` where the bound proves it.
+    answered
+        Instances with a plan that the judge accepts.
+    rejected
+        Instances with a plan that he does not.
+    reached
+        Instances where the best known value is reached.
+    mean_shortfall, median_shortfall, worst_shortfall
+        Over all instances.
     seconds
-        Wall-clock time of the planner alone.
+        Wall-clock time in all.
     """
 
-    instance: str
-    nodes: int
-    fleet_size: int
-    heuristic: float | None
-    bound: float | None
-    best_known: float | None
-    gap: float | None
-    status: str
+    answered: int
+    rejected: int
+    reached: int
+    mean_shortfall: float
+    median_shortfall: float
+    worst_shortfall: float
     seconds: float
 
 
@@ -62,121 +59,118 @@ class GapRow:
 class GapSummary:
     """All instances together; shares and gaps are fractions, None without any figure.
 
-    `proved` counts plans proved optimal, `reached` those as good as the best known value,
-    `gap_to_best_known` is (best_known - heuristic) / best_known.
+    Parameters
+    ----------
+    instances
+        Their number.
+    proved
+        Plans that are proved optimal.
+    solved
+        Instances that the exact method has solved, by whatever plan.
+    reached
+        Plans as good as the best known value.
+    mean_gap, median_gap, worst_gap
+        (bound - value) / value.
+    mean_gap_to_best_known
+        Mean shortfall of the plans.
+    seconds
+        Wall-clock time of the planner, in all.
+    contradictions
+        Instances where a value, most likely a published one, is above the proven bound.
+    solvers
+        Everybody who ran, by name.
     """
 
     instances: int
     proved: int
+    solved: int
     reached: int
     mean_gap: float | None
     median_gap: float | None
     worst_gap: float | None
     mean_gap_to_best_known: float | None
     seconds: float
-
-
-def gap_row(
-    voyage: Voyage,
-    *,
-    plan_limits: Limits,
-    exact_limits: Limits,
-    seed: int = 0,
-    reference: Mapping[str, float] | None = None,
-    progress: ProgressCallback | None = None,
-) -> GapRow:
-    """Plan one instance, bound it, and compare.
-
-    Parameters
-    ----------
-    voyage
-        The instance, and its leg times.
-    plan_limits, exact_limits
-        Limits of the planner, and of quick bound and exact method together.
-    seed
-        Seed of the planner.
-    reference
-        Best-known values by instance name.
-    progress
-        Called as the run goes on.
-    """
-    instance = voyage.instance
-    planned = plan_mission(
-        instance,
-        travel=voyage.travel,
-        bound="none",
-        limits=plan_limits,
-        seed=seed,
-        progress=progress,
-    )
-    exact = _bounded(planned, exact_limits, progress)
-    value, bound = planned.result.objective, exact.bound
-    known = [v for v in (value, exact.objective, (reference or {}).get(instance.name)) if v]
-    return GapRow(
-        instance=instance.name,
-        nodes=planned.problem.n,
-        fleet_size=planned.problem.fleet_size,
-        heuristic=value,
-        bound=bound,
-        best_known=max(known, default=value),
-        gap=optimality_gap(value, bound),
-        status=_status(planned.result, bound),
-        seconds=planned.result.seconds,
-    )
-
-
-def _bounded(planned: MissionPlan, limits: Limits, progress: ProgressCallback | None) -> Result:
-    """The best bound to be had: quick first, exact in the time that is left."""
-    from fiveroute.models import solve
-    from fiveroute.models.bounds import quick_bound
-
-    clock = limits.start()
-    problem, plan = planned.problem, planned.result.plan
-    quick = quick_bound(problem, limits)
-    result = Result.judged(
-        problem, plan, method=quick.method, seconds=clock.seconds, bound=quick.value
-    )
-    if result.status is Status.OPTIMAL or clock.expired:
-        return result
-    exact = solve(problem, "auto", clock.rest(), warm_start=plan, progress=progress)
-    best = exact.plan if (exact.objective or -1.0) > (result.objective or -1.0) else plan
-    bound = min(quick.value, math.inf if exact.bound is None else exact.bound)
-    return Result.judged(problem, best, method=exact.method, seconds=clock.seconds, bound=bound)
-
-
-def _status(planned: Result, bound: float | None) -> str:
-    if planned.objective is not None and bound is not None and is_closed(planned.objective, bound):
-        return Status.OPTIMAL.value
-    return planned.status.value
+    contradictions: tuple[str, ...] = ()
+    solvers: Mapping[str, SolverSummary] = field(default_factory=dict)
 
 
 def summarise(rows: Sequence[GapRow]) -> GapSummary:
     """Summary of a table."""
     gaps = [row.gap for row in rows if row.gap is not None]
-    short = [
-        max(row.best_known - row.heuristic, 0.0) / row.best_known if row.best_known else 0.0
-        for row in rows
-        if row.best_known is not None and row.heuristic is not None
-    ]
+    short = shortfalls(rows)
+    solvers = {name: _solver(name, rows, missed) for name, missed in short.items()}
+    ours = next(iter(solvers.values()), None)
     return GapSummary(
         instances=len(rows),
-        proved=sum(row.status == Status.OPTIMAL.value for row in rows),
-        reached=sum(s <= 1e-9 for s in short),
+        proved=sum(row.status == Status.OPTIMAL for row in rows),
+        solved=sum(row.is_solved for row in rows),
+        reached=0 if ours is None else ours.reached,
         mean_gap=statistics.fmean(gaps) if gaps else None,
         median_gap=statistics.median(gaps) if gaps else None,
         worst_gap=max(gaps, default=None),
-        mean_gap_to_best_known=statistics.fmean(short) if short else None,
+        mean_gap_to_best_known=None if ours is None else ours.mean_shortfall,
         seconds=sum(row.seconds for row in rows),
+        contradictions=tuple(row.instance for row in rows if row.contradicts),
+        solvers=solvers,
     )
 
 
-def gap_table_csv(rows: Sequence[GapRow]) -> str:
-    """The table as CSV text, a header line first; what is unknown stays empty."""
-    text = io.StringIO()
-    writer = csv.DictWriter(text, [field.name for field in fields(GapRow)], lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(asdict(row) for row in rows)
-    return text.getvalue()
+def shortfalls(rows: Sequence[GapRow]) -> dict[str, list[float]]:
+    """Everybody's shortfall on every instance of which a value is known, ours first."""
+    compared = [row for row in rows if row.best_known is not None]
+    names = dict.fromkeys(name for row in compared for name in row.values)
+    ran = {
+        "heuristic": any(row.heuristic is not None for row in rows),
+        "exact": any(row.exact_seconds is not None for row in rows),
+    }
+    return {
+        name: [_shortfall(row.values.get(name), row.best_known) for row in compared]
+        for name in names
+        if ran.get(name, True)
+    }
+
+
+def _shortfall(value: float | None, best: float | None) -> float:
+    if value is None or best is None:
+        return 1.0
+    return max(best - value, 0.0) / best if best > 0.0 else 0.0
+
+
+def _solver(name: str, rows: Sequence[GapRow], missed: Sequence[float]) -> SolverSummary:
+    answers = [row.peers[name] for row in rows if name in row.peers]
+    seconds = {
+        "heuristic": sum(row.seconds for row in rows),
+        "exact": sum(row.exact_seconds or 0.0 for row in rows),
+    }
+    return SolverSummary(
+        answered=sum(row.values.get(name) is not None for row in rows),
+        rejected=sum(answer.status == "rejected" for answer in answers),
+        reached=sum(share <= 1e-9 for share in missed),
+        mean_shortfall=statistics.fmean(missed),
+        median_shortfall=statistics.median(missed),
+        worst_shortfall=max(missed),
+        seconds=seconds.get(name, sum(answer.seconds for answer in answers)),
+    )
+
+
+def proof_times(rows: Sequence[GapRow]) -> list[float | None]:
+    """Seconds after which the exact method had solved every instance; None where it had not."""
+    return [row.exact_seconds if row.is_solved else None for row in rows]
+
+
+def flat_rows(rows: Sequence[GapRow]) -> list[dict[str, Any]]:
+    """The table with a column a figure: those of a peer begin with its name."""
+    names = dict.fromkeys(name for row in rows for name in row.peers)
+    flat = []
+    for row in rows:
+        line = row.as_document()
+        answers = line.pop("peers")
+        for name in names:
+            answer = answers.get(name, {})
+            line[name] = answer.get("objective")
+            line |= {f"{name}_{key}": answer.get(key) for key in ("status", "seconds")}
+        flat.append(line)
+    return flat
 
 
 def read_reference(path: Path) -> dict[str, float]:

@@ -10,6 +10,7 @@ import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -24,7 +25,7 @@ from fiveroute.paths.legs import Waters
 from fiveroute.plan import Route
 from fiveroute.tiers.pathing import PlannedPath
 
-__all__ = ["Panel", "completion_boxes", "path_map", "route_panels", "save"]
+__all__ = ["Panel", "completion_boxes", "gap_profile", "path_map", "route_panels", "save"]
 
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 _IDLE = "#999999"
@@ -166,6 +167,43 @@ def completion_boxes(
     axis.set(title=title, ylabel="expected completion rate")
     axis.grid(axis="y", alpha=0.3)
     return figure
+
+
+def gap_profile(
+    shortfalls: Mapping[str, Sequence[float]], proof_times: Sequence[float | None]
+) -> Figure:
+    """Performance profile: the share of instances that each solver brings within a shortfall.
+
+    Where the exact method proved something, a second chart has the share solved over time.
+
+    References
+    ----------
+    E. D. Dolan and J. J. Moré, "Benchmarking optimization software with performance profiles",
+    Mathematical Programming 91 (2002), doi 10.1007/s101070100263.
+    """
+    solved = sorted(seconds for seconds in proof_times if seconds is not None)
+    figure = Figure(figsize=(10.0 if solved else 5.5, 4.2), layout="constrained")
+    axes = figure.subplots(1, 2 if solved else 1, squeeze=False)[0]
+    for colour, (name, values) in zip(itertools.cycle(_COLOURS), shortfalls.items()):
+        below = [100.0 * value for value in sorted(values)]
+        _draw_shares(axes[0], below, len(below), 100.0, color=colour, label=name)
+    axes[0].set_xscale("symlog", linthresh=0.01)
+    axes[0].set(xlim=(-0.002, 100.0), ylim=(0.0, 1.02), title="Performance profile")
+    axes[0].set(xlabel="below the best known value by at most, %", ylabel="share of instances")
+    axes[0].legend(loc="best", fontsize="small")
+    if solved:
+        _draw_shares(axes[1], solved, len(proof_times), 2.0 * solved[-1], color=_COLOURS[0])
+        axes[1].set(xscale="log", xlabel="s", ylabel="share of instances", ylim=(0.0, 1.02))
+        axes[1].set(title="Proved optimal within")
+    for axis in axes:
+        axis.grid(alpha=0.3)
+    return figure
+
+
+def _draw_shares(axis: Axes, values: Sequence[float], total: int, end: float, **style: Any) -> None:
+    """The stairs of a distribution: a share of `total` at each value, drawn on to an end."""
+    shares = np.minimum(np.arange(len(values) + 2), len(values)) / total
+    axis.step([min(values, default=0.0), *values, end], shares, where="post", **style)
 
 
 def save(figure: Figure, path: Path) -> None:

@@ -1,4 +1,20 @@
-from fiveroute.experiments.gap_table import GapRow, gap_table_csv, summarise
+"""Summaries of gap tables, and the tables as they are written."""
+
+from pathlib import Path
+
+import pytest
+
+from fiveroute.errors import InputError
+from fiveroute.experiments.gap_row import GapRow
+from fiveroute.experiments.gap_table import (
+    flat_rows,
+    proof_times,
+    read_reference,
+    shortfalls,
+    summarise,
+)
+from fiveroute.experiments.run_table import write_rows
+from fiveroute.peers import PeerAnswer
 
 
 def row(**changes: object) -> GapRow:
@@ -35,7 +51,71 @@ def test_nothing_to_collect_is_no_shortfall() -> None:
     assert summarise([row(heuristic=0.0, best_known=0.0, gap=0.0)]).mean_gap_to_best_known == 0.0
 
 
-def test_csv_leaves_the_unknown_empty() -> None:
-    header, line = gap_table_csv([row(bound=None, gap=None)]).splitlines()
-    assert header.split(",")[:3] == ["instance", "nodes", "fleet_size"]
-    assert line == "a,5,2,9.0,,10.0,,feasible,1.0"
+def test_an_empty_table_has_an_empty_summary() -> None:
+    summary = summarise([])
+    assert (summary.instances, summary.mean_gap, summary.solvers) == (0, None, {})
+
+
+def test_an_instance_is_solved_by_whatever_plan() -> None:
+    late = row(exact=10.0, exact_status="optimal", exact_seconds=3.0)
+    never = row(exact=9.0, exact_status="feasible", exact_seconds=5.0)
+    summary = summarise([late, never])
+    assert (summary.proved, summary.solved) == (0, 1)
+    assert summary.solvers["exact"].seconds == 8.0
+    assert proof_times([late, never]) == [3.0, None]
+
+
+def test_a_rejected_answer_has_collected_nothing() -> None:
+    rejected = {"vroom": PeerAnswer(None, "rejected", 2.0, 1)}
+    good = {"vroom": PeerAnswer(10.0, "feasible", 1.0)}
+    rows = [row(peers=rejected), row(peers=good)]
+    assert shortfalls(rows) == {"heuristic": [0.1, 0.1], "vroom": [1.0, 0.0]}
+    vroom = summarise(rows).solvers["vroom"]
+    assert (vroom.answered, vroom.rejected, vroom.reached, vroom.seconds) == (1, 1, 1, 3.0)
+    assert (vroom.mean_shortfall, vroom.worst_shortfall) == (0.5, 1.0)
+
+
+def test_a_published_value_above_the_bound_is_a_contradiction() -> None:
+    fine, wrong = row().beside(10.0), row(instance="b").beside(11.0)
+    assert (fine.best_known, wrong.best_known) == (10.0, 11.0)
+    assert summarise([fine, wrong]).contradictions == ("b",)
+
+
+def test_a_better_peer_is_the_best_known() -> None:
+    better = row(peers={"pyvrp": PeerAnswer(9.5, "feasible", 1.0)}).beside(None)
+    assert better.best_known == 9.5
+
+
+def test_rows_come_back_from_their_documents() -> None:
+    answered = row(peers={"pyvrp": PeerAnswer(9.5, "feasible", 1.0)}, exact_status="feasible")
+    assert GapRow.of_document(answered.as_document()) == answered
+
+
+def test_a_column_a_figure(tmp_path: Path) -> None:
+    answers = {"vroom": PeerAnswer(9.5, "feasible", 1.0)}
+    rows = flat_rows([row(bound=None, gap=None, peers=answers), row()])
+    assert [line["vroom"] for line in rows] == [9.5, None]
+    write_rows(rows, tmp_path / "table.csv")
+    header, first, second = (tmp_path / "table.csv").read_text().splitlines()
+    assert header.startswith("instance,nodes,fleet_size,heuristic,bound,best_known,gap,status")
+    assert header.endswith("vroom,vroom_status,vroom_seconds")
+    assert first.startswith("a,5,2,9.0,,10.0,,feasible,1.0,")
+    assert first.endswith(",9.5,feasible,1.0")
+    assert second.endswith(",,,")
+    write_rows(rows, tmp_path / "table.md")
+    lines = (tmp_path / "table.md").read_text().splitlines()
+    assert len(lines) == 4
+    assert lines[0].startswith("| instance | nodes |")
+    assert {line.count("|") for line in lines} == {len(rows[0]) + 1}
+
+
+def test_a_reference_needs_its_columns_and_numbers(tmp_path: Path) -> None:
+    file = tmp_path / "best.csv"
+    file.write_text("instance,best_known\na,12\n")
+    assert read_reference(file) == {"a": 12.0}
+    file.write_text("instance,best_known\na,many\n")
+    with pytest.raises(InputError, match=r"line 2, best_known: 'many': must be a number"):
+        read_reference(file)
+    file.write_text("name,value\na,12\n")
+    with pytest.raises(InputError, match="needs the columns instance and best_known"):
+        read_reference(file)
