@@ -96,7 +96,7 @@ def read_entries(paths: Iterable[Path]) -> tuple[list[Entry], list[str]]:
         if path.is_dir():
             found = _read_folder(path, notes)
             if not found:
-                raise InputError("holds no instance; name a folder of instances", file=path)
+                raise InputError("is a folder without any instance; name another", file=path)
             entries += found
         else:
             entries.append(Entry(read_instance(path), path))

@@ -49,7 +49,7 @@ def test_the_numbers_do_not_depend_on_the_workers() -> None:
 def test_a_cluster_that_loses_a_worker_gives_the_same_numbers() -> None:
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50
+        n_workers=2, threads_per_worker=1, dashboard_address=":0", silence_logs=50
     ) as cluster:
         seen: list[Progress] = []
 
