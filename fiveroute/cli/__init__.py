@@ -19,6 +19,7 @@ COMMANDS = {
     "gap": "Compare the planner with exact solutions or bounds, a row an instance.",
     "path": "The fastest path between two stops in the current: tier 3 alone.",
     "simulate": "Carry a plan out in the uncertain ocean, again and again.",
+    "decide": "Fleet size, departure, speed, reserve: a table and a picture each.",
     "verify": "Judge a plan: every violation, with its AUV, node and amount.",
     "generate": "Make scenarios: the paper's distribution and other layouts.",
     "convert": "Translate an instance from one file format to another.",

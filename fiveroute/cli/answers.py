@@ -14,6 +14,7 @@ from fiveroute.plan import Route
 from fiveroute.result import GiantRouteResult, Status
 
 if TYPE_CHECKING:
+    from fiveroute.decide.sweep import Sweep
     from fiveroute.fleet_plan import FleetPlan
     from fiveroute.formats.plan_file import PlanFile
     from fiveroute.mission import MissionPlan
@@ -34,11 +35,16 @@ __all__ = [
     "print_path",
     "print_routes",
     "print_simulation",
+    "print_sweep",
     "print_table",
     "print_verdict",
     "simulation_answer",
+    "sweep_answer",
     "verify_answer",
 ]
+
+_ONLY_IN_FILES = {"routes", "bound", "objective", "held_out_p25", "held_out_p75", "unreachable"}
+"""Columns of a sweep that a table for people leaves out."""
 
 _CODES = {Status.OPTIMAL: 0, Status.FEASIBLE: 0, Status.INFEASIBLE: 1, Status.NO_SOLUTION: 3}
 
@@ -210,6 +216,37 @@ def print_simulation(answer: Mapping[str, Any]) -> None:
         figures.append(("online gap", f"{100 * answer['online_gap']:.1f} % to the clairvoyant"))
     for name, text in figures:
         click.echo(f"{name:<16}{text}")
+
+
+def sweep_answer(sweep: Sweep) -> dict[str, Any]:
+    """What `decide` answers: a row a value, and the value that it points out."""
+    return {
+        "instance": sweep.instance,
+        "quantity": sweep.quantity,
+        "unit": sweep.unit,
+        "rows": [dict(row) for row in sweep.rows],
+        "marked": sweep.marked,
+        "because": sweep.because,
+    }
+
+
+def print_sweep(sweep: Sweep) -> None:
+    """Print what was varied for people, and what it points out."""
+    columns = [name for name in sweep.rows[0] if name not in _ONLY_IN_FILES]
+    cells = [[_cell(row[name]) for name in columns] for row in sweep.rows]
+    header = [name.replace("_", " ") for name in columns]
+    print_table(sweep.instance, header, cells, words=(0,))
+    if sweep.marked is not None:
+        marked = sweep.marked
+        shown = f"{marked:.3g}" if isinstance(marked, float) else str(marked)
+        unit = f" {sweep.unit}" if sweep.unit else ""
+        click.echo(f"{sweep.quantity.replace('_', ' ')} {shown}{unit}: {sweep.because}")
+
+
+def _cell(value: float | int | str | None) -> str:
+    if value is None:
+        return "-"
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
 def verify_answer(instance: Instance, filed: PlanFile, verdict: Verdict) -> dict[str, Any]:

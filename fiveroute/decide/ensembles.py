@@ -25,6 +25,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from fiveroute.decide.sweep import Row, Sweep
 from fiveroute.errors import InputError
 from fiveroute.instance import Instance
 from fiveroute.limits import Limits, Progress, ProgressCallback
@@ -43,6 +44,7 @@ __all__ = [
     "EnsemblePlan",
     "cvar",
     "drawn_members",
+    "ensemble_sweep",
     "filed_members",
     "member_times",
     "plan_against_ensemble",
@@ -170,6 +172,30 @@ def plan_against_ensemble(
         )
     candidates.sort(key=lambda candidate: -cvar(candidate.training, alpha))
     return EnsemblePlan(alpha, tuple(candidates))
+
+
+def ensemble_sweep(voyage: Voyage, planned: EnsemblePlan) -> Sweep:
+    """The candidates as a table, the chosen one first and pointed out."""
+    rows: tuple[Row, ...] = tuple(
+        {
+            "planned_for": candidate.name,
+            "training_mean": float(np.mean(candidate.training)),
+            "training_cvar": cvar(candidate.training, planned.alpha),
+            "held_out_mean": float(np.mean(candidate.held_out)),
+            "held_out_cvar": cvar(candidate.held_out, planned.alpha),
+            **{
+                f"held_out_p{q}": float(np.quantile(candidate.held_out, q / 100.0))
+                for q in (5, 25, 50, 75, 95)
+            },
+            "routes": "; ".join(
+                " ".join(voyage.instance.nodes[node - 1].id for node in route)
+                for route in candidate.plan.routes
+            ),
+        }
+        for candidate in planned.candidates
+    )
+    because = f"best in the worst {planned.alpha:.0%} of training"
+    return Sweep(voyage.mission.name, "planned_for", "", rows, planned.candidates[0].name, because)
 
 
 def _wanted(voyage: Voyage, training: Floats) -> dict[str, Floats]:

@@ -1,0 +1,462 @@
+"""``fiveroute decide``: what is decided before departure, a table and a picture each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from fiveroute.cli import options
+
+if TYPE_CHECKING:
+    from fiveroute.decide.sweep import Sweep
+    from fiveroute.limits import Limits, ProgressCallback
+
+__all__ = ["command"]
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+class _Numbers(click.ParamType[tuple[float, ...]]):
+    """Numbers as ``1,2,3`` or ``FROM:TO:STEP``, both ends included."""
+
+    name = "numbers"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, ...]:
+        if isinstance(value, tuple):
+            return value
+        try:
+            numbers = self._numbers(str(value))
+        except ValueError:
+            numbers = ()
+        if not numbers:
+            self.fail(f"{value!r} is no list of numbers such as 1,2,3 or 0:24:6", param, ctx)
+        return numbers
+
+    @staticmethod
+    def _numbers(text: str) -> tuple[float, ...]:
+        if ":" not in text:
+            return tuple(float(part) for part in text.split(","))
+        first, last, step = (float(part) for part in text.split(":"))
+        if not (step > 0.0 and last >= first and (last - first) / step <= 1000.0):
+            return ()
+        count = int((last - first) / step + 1e-9) + 1
+        return tuple(first + k * step for k in range(count))
+
+
+_NUMBERS = _Numbers()
+_picture = click.option(
+    "--picture", type=click.Path(path_type=Path), help="Draw it to this PNG, PDF or SVG file."
+)
+_output = options.output("Write the table to this file, .csv, .md or .parquet.")
+_bound = click.option(
+    "--bound",
+    type=click.Choice(["none", "quick", "exact"]),
+    default="quick",
+    show_default=True,
+    help="Where the upper bounds come from.",
+)
+
+
+def _shared(command: Command) -> Command:
+    """Options that every question has."""
+    for option in (
+        options.json_output,
+        options.force,
+        _output,
+        _picture,
+        options.time_limit,
+        options.seed,
+    ):
+        command = option(command)
+    return command
+
+
+@click.group("decide")
+def command() -> None:
+    """Decide before departure: fleet size, departure, speed, reserve, and against an ensemble."""
+
+
+@command.command("fleet-size")
+@options.instance
+@click.option(
+    "--sizes",
+    type=_NUMBERS,
+    default="1:6:1",
+    show_default=True,
+    metavar="LIST",
+    help="Numbers of AUVs.",
+)
+@_bound
+@options.straight_lines
+@_shared
+@click.pass_context
+def fleet_size(
+    ctx: click.Context,
+    /,
+    instance: Path,
+    sizes: tuple[float, ...],
+    bound: Any,
+    straight_lines: bool,
+    time_limit: float,
+    seed: int,
+    **how: Any,
+) -> None:
+    """How many AUVs: what each number of them collects, and could collect at most."""
+    from fiveroute.cli.sailing import sail
+    from fiveroute.decide.fleet_sizes import sweep_fleet_sizes
+    from fiveroute.errors import InputError
+    from fiveroute.formats import read_instance
+
+    if any(size < 1 or size != int(size) for size in sizes):
+        raise InputError("must be whole numbers from 1 on", field="--sizes", value=list(sizes))
+    mission = read_instance(instance)
+
+    def work(limits: Limits, progress: ProgressCallback | None) -> Sweep:
+        clock = limits.start()
+        voyage = sail(
+            mission, instance, limits, straight_lines=straight_lines, seed=seed, progress=progress
+        )
+        whole = [int(size) for size in sizes]
+        return sweep_fleet_sizes(
+            voyage, whole, bound=bound, limits=clock.rest(), seed=seed, progress=progress
+        )
+
+    _answer(ctx, work, time_limit, **how)
+
+
+@command.command("departure")
+@options.instance
+@click.option(
+    "--hours",
+    type=_NUMBERS,
+    default="0:24:3",
+    show_default=True,
+    metavar="LIST",
+    help="Hours after the departure that the instance states, or else the file's first time.",
+)
+@options.fleet_size
+@_bound
+@_shared
+@click.pass_context
+def departure(
+    ctx: click.Context,
+    /,
+    instance: Path,
+    hours: tuple[float, ...],
+    fleet_size: int | None,
+    bound: Any,
+    time_limit: float,
+    seed: int,
+    **how: Any,
+) -> None:
+    """When to leave: the mission at different times of its forecast."""
+    from fiveroute.decide.departures import sweep_departures
+    from fiveroute.formats import read_instance
+
+    mission = read_instance(instance)
+
+    def work(limits: Limits, progress: ProgressCallback | None) -> Sweep:
+        return sweep_departures(
+            mission,
+            hours,
+            fleet_size=fleet_size,
+            bound=bound,
+            limits=limits,
+            seed=seed,
+            progress=progress,
+            folder=instance.parent,
+        )
+
+    _answer(ctx, work, time_limit, **how)
+
+
+@command.command("speed")
+@options.instance
+@click.option(
+    "--speeds",
+    type=_NUMBERS,
+    default="0.6:2.0:0.2",
+    show_default=True,
+    metavar="LIST",
+    help="Speeds through the water in metres per second.",
+)
+@click.option(
+    "--battery",
+    type=click.FloatRange(min=0.0, min_open=True),
+    metavar="WH",
+    help="Watt-hours of an AUV; without it what the endurance of the instance needs.",
+)
+@click.option(
+    "--hotel",
+    type=click.FloatRange(min=0.0, min_open=True),
+    default=30.0,
+    show_default=True,
+    metavar="W",
+    help="Power of electronics and sensors.",
+)
+@click.option(
+    "--propulsion",
+    type=click.FloatRange(min=0.0, min_open=True),
+    default=4.05,
+    show_default=True,
+    metavar="W",
+    help="Power of propulsion at 1 m/s; it grows as the cube of the speed.",
+)
+@options.fleet_size
+@_bound
+@options.straight_lines
+@_shared
+@click.pass_context
+def speed(
+    ctx: click.Context,
+    /,
+    instance: Path,
+    speeds: tuple[float, ...],
+    battery: float | None,
+    hotel: float,
+    propulsion: float,
+    fleet_size: int | None,
+    bound: Any,
+    straight_lines: bool,
+    time_limit: float,
+    seed: int,
+    **how: Any,
+) -> None:
+    """How fast: a faster AUV goes farther in an hour, and has fewer hours."""
+    from fiveroute.decide.speeds import PowerModel, sweep_speeds
+    from fiveroute.formats import read_instance
+
+    mission = read_instance(instance)
+
+    def work(limits: Limits, progress: ProgressCallback | None) -> Sweep:
+        return sweep_speeds(
+            mission,
+            speeds,
+            power=PowerModel(hotel, propulsion),
+            battery=battery,
+            fleet_size=fleet_size,
+            bound=bound,
+            straight_lines=straight_lines,
+            limits=limits,
+            seed=seed,
+            progress=progress,
+            folder=instance.parent,
+        )
+
+    _answer(ctx, work, time_limit, **how)
+
+
+@command.command("reserve")
+@options.instance
+@click.option(
+    "--reserves",
+    type=_NUMBERS,
+    default="0,0.5,1,1.645,2.5",
+    show_default=True,
+    metavar="LIST",
+    help="Standard deviations of the remaining time kept in hand.",
+)
+@click.option(
+    "--accepted-late",
+    type=click.FloatRange(0.0, 1.0),
+    default=0.01,
+    show_default=True,
+    metavar="P",
+    help="Share of AUVs that may come home late.",
+)
+@click.option(
+    "--runs", type=click.IntRange(min=1), default=50, show_default=True, help="Oceans to sail in."
+)
+@options.fleet_size
+@options.workers
+@options.straight_lines
+@_shared
+@click.pass_context
+def reserve(
+    ctx: click.Context,
+    /,
+    instance: Path,
+    reserves: tuple[float, ...],
+    accepted_late: float,
+    runs: int,
+    fleet_size: int | None,
+    workers: int,
+    straight_lines: bool,
+    time_limit: float,
+    seed: int,
+    **how: Any,
+) -> None:
+    """How cautiously: data collected at sea against AUVs that come home late."""
+    from fiveroute.cli.sailing import sail
+    from fiveroute.decide.reserves import sweep_reserves
+    from fiveroute.errors import InputError
+    from fiveroute.formats import read_instance
+
+    if min(reserves) < 0.0:
+        raise InputError("must not be negative", field="--reserves", value=min(reserves))
+    mission = read_instance(instance)
+
+    def work(limits: Limits, progress: ProgressCallback | None) -> Sweep:
+        clock = limits.start()
+        voyage = sail(
+            mission, instance, limits, straight_lines=straight_lines, seed=seed, progress=progress
+        )
+        return sweep_reserves(
+            voyage,
+            reserves,
+            accepted_late=accepted_late,
+            fleet_size=fleet_size,
+            runs=runs,
+            workers=workers,
+            limits=clock.rest(),
+            seed=seed,
+            progress=progress,
+        )
+
+    _answer(ctx, work, time_limit, **how)
+
+
+@command.command("ensemble")
+@options.instance
+@click.argument("members", nargs=-1, type=click.Path(path_type=Path))
+@click.option(
+    "--draw",
+    type=click.IntRange(min=2),
+    default=30,
+    show_default=True,
+    metavar="K",
+    help="Members to draw from the instance's vortices where no files are given.",
+)
+@click.option(
+    "--held-out",
+    type=click.IntRange(min=1),
+    metavar="H",
+    help="Members that are not planned with, the last ones; half of them by default.",
+)
+@click.option(
+    "--alpha",
+    type=click.FloatRange(0.0, 1.0, min_open=True),
+    default=0.2,
+    show_default=True,
+    help="Share of the worst members that decides (CVaR); 1 is the mean.",
+)
+@click.option(
+    "--displacement",
+    type=click.FloatRange(min=0.0),
+    default=800.0,
+    show_default=True,
+    metavar="METRES",
+    help="Standard deviation of the centres of drawn vortices.",
+)
+@click.option(
+    "--strength",
+    type=click.FloatRange(min=0.0, max=5.0),
+    default=0.5,
+    show_default=True,
+    help="Standard deviation of the logarithm of their strength.",
+)
+@options.fleet_size
+@_shared
+@click.pass_context
+def ensemble(
+    ctx: click.Context,
+    /,
+    instance: Path,
+    members: tuple[Path, ...],
+    draw: int,
+    held_out: int | None,
+    alpha: float,
+    displacement: float,
+    strength: float,
+    fleet_size: int | None,
+    time_limit: float,
+    seed: int,
+    **how: Any,
+) -> None:
+    """Plan against MEMBERS of an ensemble of currents, and test on members held out.
+
+    MEMBERS are CF netCDF files that take the place of the instance's own; without them the members
+    are drawn from its vortices.
+    """
+    import numpy as np
+
+    from fiveroute.cli.sailing import sail
+    from fiveroute.decide.ensembles import (
+        drawn_members,
+        ensemble_sweep,
+        filed_members,
+        member_times,
+        plan_against_ensemble,
+    )
+    from fiveroute.formats import read_instance
+    from fiveroute.ocean.uncertain_ocean import VortexUncertainty
+
+    mission = read_instance(instance)
+    folder = instance.parent
+    uncertainty = VortexUncertainty(displacement=displacement, strength=strength)
+    rng = np.random.default_rng(seed)
+    oceans = (
+        filed_members(mission, members, folder)
+        if members
+        else drawn_members(mission, draw, uncertainty, rng, folder)
+    )
+
+    def work(limits: Limits, progress: ProgressCallback | None) -> Sweep:
+        clock = limits.start()
+        voyage = sail(mission, instance, limits, straight_lines=False, seed=seed, progress=progress)
+        planned = plan_against_ensemble(
+            voyage,
+            [member_times(voyage, ocean) for ocean in oceans],
+            held_out or max(len(oceans) // 2, 1),
+            alpha=alpha,
+            fleet_size=fleet_size,
+            limits=clock.rest(),
+            seed=seed,
+            progress=progress,
+        )
+        return ensemble_sweep(voyage, planned)
+
+    _answer(ctx, work, time_limit, **how)
+
+
+def _answer(
+    ctx: click.Context,
+    work: Callable[[Limits, ProgressCallback | None], Sweep],
+    time_limit: float,
+    *,
+    output: Path | None,
+    picture: Path | None,
+    force: bool,
+    as_json: bool,
+) -> None:
+    """Work the table out, write and draw it where that is asked for, and print it."""
+    from fiveroute.cli import answers
+    from fiveroute.cli.files import require_output
+    from fiveroute.cli.running import run
+    from fiveroute.experiments.run_table import require_table, write_rows
+    from fiveroute.limits import Limits
+
+    for path in (output, picture):
+        require_output(path, force)
+    if output is not None:
+        require_table(output)
+    outcome = run(work, Limits(time_limit))
+    sweep = outcome.value
+    if output is not None:
+        write_rows(sweep.rows, output, force)
+    if picture is not None:
+        from fiveroute.decide.picture import sweep_figure
+        from fiveroute.experiments.pictures import save
+
+        save(sweep_figure(sweep), picture)
+    answer = answers.sweep_answer(sweep)
+    if as_json:
+        answers.print_json(answer)
+    else:
+        answers.print_sweep(sweep)
+    ctx.exit(130 if outcome.interrupted else 0)

@@ -1,0 +1,44 @@
+"""``fiveroute decide``: tables, pictures, and lists of numbers."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+
+def test_fleet_sizes(call: Any, tiny: Path, tmp_path: Path) -> None:
+    table, picture = tmp_path / "sizes.csv", tmp_path / "sizes.png"
+    how = ("--sizes", "1,2", "--output", table, "--picture", picture)
+    answer = call("decide", "fleet-size", tiny, *how, "--json")
+    assert answer.code == 0
+    assert [row["fleet_size"] for row in answer.doc["rows"]] == [1.0, 2.0]
+    assert table.read_text().startswith("fleet_size,status,objective")
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    again = call("decide", "fleet-size", tiny, *how)
+    assert again.code == 2
+    assert "--force" in again.err
+
+
+def test_the_table_for_people_points_something_out(call: Any, tiny: Path) -> None:
+    answer = call("decide", "speed", tiny, "--speeds", "0.8:1.2:0.2", "--straight-lines")
+    assert answer.code == 0
+    assert "collects most" in answer.out
+
+
+@pytest.mark.parametrize("wrong", ["", "x", "3:1:1", "1:2:0", "1:2", "1:100000:1e-3"])
+def test_lists_that_are_none(call: Any, tiny: Path, wrong: str) -> None:
+    answer = call("decide", "fleet-size", tiny, "--sizes", wrong)
+    assert answer.code == 2
+    assert "list of numbers" in answer.err
+
+
+def test_sizes_are_whole(call: Any, tiny: Path) -> None:
+    answer = call("decide", "fleet-size", tiny, "--sizes", "1,2.5")
+    assert answer.code == 2
+    assert "whole" in answer.err
+
+
+def test_departures_need_a_forecast(call: Any, tiny: Path) -> None:
+    answer = call("decide", "departure", tiny)
+    assert answer.code == 2
+    assert "ocean.currents.file" in answer.err

@@ -1,0 +1,96 @@
+"""Fleet sizes, speeds, departures and reserves of small missions."""
+
+from dataclasses import replace
+from datetime import UTC, datetime
+
+import pytest
+
+from fiveroute.decide.departures import begin_after, sweep_departures
+from fiveroute.decide.fleet_sizes import sweep_fleet_sizes
+from fiveroute.decide.picture import sweep_figure
+from fiveroute.decide.reserves import sweep_reserves
+from fiveroute.decide.speeds import PowerModel, sweep_speeds
+from fiveroute.decide.sweep import Row
+from fiveroute.errors import InputError
+from fiveroute.generate import generate
+from fiveroute.instance import Instance
+from fiveroute.paths.voyage import Voyage
+
+
+@pytest.fixture(scope="module")
+def mission() -> Instance:
+    """Ten nodes, of which a short endurance leaves some out."""
+    instance = generate("uniform", nodes=10, seed=3)
+    fleet = replace(instance.fleet, size=None, endurance=9000.0)
+    return replace(instance, fleet=fleet, ocean=type(instance.ocean)())
+
+
+def column(rows: tuple[Row, ...], name: str) -> list[float]:
+    values = [row[name] for row in rows]
+    assert all(isinstance(value, (int, float)) for value in values)
+    return [float(value) for value in values if isinstance(value, (int, float))]
+
+
+def test_more_auvs_collect_no_less(mission: Instance) -> None:
+    sweep = sweep_fleet_sizes(Voyage.straight(mission), [1, 2, 3], bound="exact")
+    rates, bounds = column(sweep.rows, "completion_rate"), column(sweep.rows, "bound_rate")
+    assert rates == sorted(rates)
+    assert all(rate <= bound + 1e-9 for rate, bound in zip(rates, bounds, strict=True))
+    assert sweep.because == "estimate (17)"
+    sweep_figure(sweep)
+
+
+def test_a_fleet_that_is_stated_one_by_one_has_its_size(mission: Instance) -> None:
+    fleet = replace(mission.fleet, endurance=(9000.0, 8000.0))
+    with pytest.raises(InputError, match=r"^fleet.endurance: states 2 AUVs"):
+        sweep_fleet_sizes(Voyage.straight(replace(mission, fleet=fleet)), [1, 2])
+
+
+def test_power_and_endurance() -> None:
+    power = PowerModel(hotel=30.0, propulsion=4.0)
+    assert power.power(1.5) == pytest.approx(43.5)
+    assert power.endurance(1000.0, 1.5) == pytest.approx(1000.0 * 3600.0 / 43.5)
+    best = power.farthest_speed
+    assert power.propulsion * best**3 == pytest.approx(power.hotel / 2.0)
+    for speed in (0.99 * best, 1.01 * best):
+        assert power.power(speed) / speed > power.power(best) / best
+
+
+@pytest.mark.parametrize("wrong", [0.0, -1.0, float("nan"), float("inf")])
+def test_power_must_be_positive(wrong: float) -> None:
+    with pytest.raises(InputError, match="hotel"):
+        PowerModel(hotel=wrong)
+
+
+def test_the_battery_follows_from_the_endurance(mission: Instance) -> None:
+    sweep = sweep_speeds(mission, [1.0, mission.fleet.speed], fleet_size=2, straight_lines=True)
+    assert sweep.rows[1]["endurance"] == pytest.approx(9000.0)
+    stated = sweep_speeds(mission, [1.0], fleet_size=2, battery=100.0, straight_lines=True)
+    expected = PowerModel().endurance(100.0, 1.0)
+    assert stated.rows[0]["endurance"] == pytest.approx(expected)
+
+
+def test_an_unlimited_endurance_tells_of_no_battery(mission: Instance) -> None:
+    endless = replace(mission, fleet=replace(mission.fleet, endurance=None, size=1))
+    with pytest.raises(InputError, match="watt-hours"):
+        sweep_speeds(endless, [1.0])
+
+
+def test_a_reserve_costs_data_and_saves_vehicles(mission: Instance) -> None:
+    uncertain = replace(mission, uncertainty=replace(mission.uncertainty, drift=0.3))
+    sweep = sweep_reserves(Voyage.straight(uncertain), [0.0, 3.0], fleet_size=2, runs=40)
+    late, rates = column(sweep.rows, "late_share"), column(sweep.rows, "completion_rate")
+    assert late[0] > late[1]
+    assert rates[0] >= rates[1]
+    assert sweep.marked == (3.0 if late[1] <= 0.01 else None)
+    sweep_figure(sweep)
+
+
+def test_departures_need_a_forecast(mission: Instance) -> None:
+    with pytest.raises(InputError, match=r"^ocean.currents.file: needs a forecast"):
+        sweep_departures(mission, [0.0])
+
+
+def test_a_departure_is_stated_in_utc() -> None:
+    first = datetime(2016, 1, 31, 23, 30, tzinfo=UTC)
+    assert begin_after(first, 1.5) == "2016-02-01T01:00:00"

@@ -1,0 +1,94 @@
+"""Plans against an ensemble: the risk measure, the recourse, and the choice."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fiveroute.decide.ensembles import (
+    cvar,
+    drawn_members,
+    ensemble_sweep,
+    member_times,
+    plan_against_ensemble,
+    recourse_completion,
+)
+from fiveroute.decide.picture import sweep_figure
+from fiveroute.errors import InputError
+from fiveroute.generate import generate
+from fiveroute.instance import Instance, Ocean, Vortex
+from fiveroute.ocean.stated import stated_current
+from fiveroute.ocean.uncertain_ocean import VortexUncertainty
+from fiveroute.paths.voyage import Voyage
+from fiveroute.plan import Plan
+
+
+@pytest.fixture(scope="module")
+def mission() -> Instance:
+    instance = generate("uniform", nodes=8, seed=5)
+    vortex = Vortex(x=5000.0, y=5000.0, circulation=3000.0, radius=1500.0)
+    currents = replace(instance.ocean.currents, vortices=(vortex,))
+    return replace(
+        instance,
+        fleet=replace(instance.fleet, size=2, endurance=11000.0),
+        ocean=replace(Ocean(), currents=currents),
+    )
+
+
+def test_the_worst_share_decides() -> None:
+    rates = [0.9, 0.5, 0.7, 0.6, 1.0]
+    assert cvar(rates, 0.4) == pytest.approx(0.55)
+    assert cvar(rates, 1.0) == pytest.approx(np.mean(rates))
+    assert cvar(rates, 0.01) == 0.5
+
+
+def test_planned_times_leave_nothing_out(mission: Instance) -> None:
+    problem = mission.problem(2)
+    plan = Plan.of([(1, 2), (3,)])
+    budgets = np.full(2, 1.2 * max(plan.durations(problem)))
+    roomy = replace(problem, budgets=budgets)
+    assert recourse_completion(roomy, plan, problem.travel) == pytest.approx(
+        problem.collected([1, 2, 3]) / problem.total_profit
+    )
+
+
+def test_an_auv_turns_home_in_time(mission: Instance) -> None:
+    problem = mission.problem(2)
+    blocked = problem.travel.copy()
+    blocked[:, 2] = np.inf
+    rate = recourse_completion(problem, Plan.of([(2, 1), ()]), blocked)
+    assert rate == pytest.approx(problem.collected([1]) / problem.total_profit)
+
+
+def test_the_forecast_as_a_member_takes_the_planned_times(mission: Instance) -> None:
+    still = replace(mission, ocean=Ocean())
+    times = member_times(Voyage.straight(mission), stated_current(still))
+    assert times[:-1, 1:] == pytest.approx(still.travel[:-1, 1:], rel=1e-9)
+
+
+def test_the_choice_is_the_best_of_the_training_members(mission: Instance) -> None:
+    uncertainty = VortexUncertainty(displacement=1500.0, strength=0.8)
+    members = drawn_members(mission, 8, uncertainty, np.random.default_rng(1))
+    voyage = Voyage.straight(mission)
+    times = [member_times(voyage, member) for member in members]
+    planned = plan_against_ensemble(voyage, times, 3, alpha=0.4)
+    assert len(planned.chosen.training) == 5
+    assert len(planned.chosen.held_out) == 3
+    worth = [cvar(each.training, 0.4) for each in planned.candidates]
+    assert worth == sorted(worth, reverse=True)
+    sweep = ensemble_sweep(voyage, planned)
+    assert sweep.marked == planned.chosen.name
+    sweep_figure(sweep)
+
+
+@pytest.mark.parametrize("held_out", [0, 4, 9])
+def test_both_kinds_of_members_are_needed(mission: Instance, held_out: int) -> None:
+    times = [mission.travel] * 4
+    with pytest.raises(InputError, match="held_out"):
+        plan_against_ensemble(Voyage.straight(mission), times, held_out)
+
+
+def test_without_vortices_there_is_nothing_to_draw_from(mission: Instance) -> None:
+    still = replace(mission, ocean=Ocean())
+    with pytest.raises(InputError, match="vortices"):
+        drawn_members(still, 3, VortexUncertainty(), np.random.default_rng(0))
