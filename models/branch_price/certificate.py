@@ -20,6 +20,7 @@ import numpy as np
 
 from fiveroute.limits import Limits
 from fiveroute.models.branch_price.neighbourhoods import nearest
+from fiveroute.models.branch_price.pricing import Pricer
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.models.branch_price.subproblem import Branch, Subproblem
 from fiveroute.models.network import Network
@@ -96,6 +97,7 @@ def certify(problem: TeamOrienteering, limits: Limits | None = None) -> Certific
     root.relax(lambda _: None)
     if root.relaxation is None or not np.isfinite(root.relaxation.value):
         return None
+    assert isinstance(root.pricer, Pricer)
     duals, worth = root.relaxation.duals, root.relaxation.best.tolist()
     near |= root.pricer.remembered_by_walks(duals)
     node = duals.node[1:-1].tolist()

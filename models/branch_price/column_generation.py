@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.limits import Clock
+from fiveroute.models.branch_price.inspection import Inspector
 from fiveroute.models.branch_price.master import Master
 from fiveroute.models.branch_price.pricing import Duals, Priced, Pricer
 
@@ -50,14 +51,14 @@ class Relaxation:
     has_converged: bool = False
 
     @classmethod
-    def of(cls, pricer: Pricer, duals: Duals, best: Floats) -> Relaxation:
+    def of(cls, pricer: Pricer | Inspector, duals: Duals, best: Floats) -> Relaxation:
         """The bound that multipliers and a pricing give."""
-        return cls(duals.bound(pricer.roads.routes, best), duals, best)
+        return cls(duals.bound(pricer.roads.routes, best, pricer.roads.refund), duals, best)
 
 
 def generate(
     master: Master,
-    pricer: Pricer,
+    pricer: Pricer | Inspector,
     clock: Clock,
     *,
     target: Callable[[], float],

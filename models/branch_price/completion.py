@@ -33,6 +33,8 @@ __all__ = ["Completion", "complete", "completion_bound", "nearest_nodes", "over_
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Bytes = NDArray[np.int8]
+Booleans = NDArray[np.bool_]
 
 _ROUNDING = 1e-9  # share of a step by which remaining time is rounded up; legs by far less
 _MOST_WORK = 120_000_000  # steps of the dynamic programme, some tenths of a second
@@ -64,7 +66,13 @@ class Completion:
 
 
 def complete(
-    leg: Floats, gain: Floats, origin: int, horizon: float, steps: int, memory: int
+    leg: Floats,
+    gain: Floats,
+    origin: int,
+    horizon: float,
+    steps: int,
+    memory: int,
+    toll: float = 0.0,
 ) -> Completion:
     """Compute all walks from an origin.
 
@@ -83,6 +91,8 @@ def complete(
         K.
     memory
         q; less where there are so many vertices that it would take long.
+    toll
+        What a second costs.
     """
     while memory and steps * leg.size << memory > _MOST_WORK:
         memory -= 1
@@ -91,8 +101,9 @@ def complete(
     finite = leg <= horizon * (1.0 + _ROUNDING)
     whole[finite] = np.floor(leg[finite] / step + _ROUNDING / 1e3).astype(np.int64)
     nearest = nearest_nodes(leg, memory)
+    cost = toll * np.where(finite, leg, 0.0)
     value = np.full((steps + 1, len(leg), 1 << memory), -np.inf)
-    _walk(whole, gain, origin, _clusters(whole), _carry(nearest), value)
+    _walk(whole, cost, gain, origin, _clusters(whole), _carry(nearest), value)
     return Completion(value, nearest, step)
 
 
@@ -122,16 +133,17 @@ def _clusters(whole: Ints) -> Ints:
 
 
 @kernel
-def _carry(nearest: Ints) -> Ints:
+def _carry(nearest: Ints) -> Bytes:
     """What a walk remembers at j that comes from i with s; -1 if it may not go there.
 
-    Shape (size, size, 2 ** q), for j, i, s.
+    Shape (size, 2 ** q, size), for i, s, j.
     """
     size, memory = nearest.shape
-    carry = np.zeros((size, size, 1 << memory), np.int64)
-    for j in range(size):
-        for i in range(size):
-            kept = np.zeros(memory, np.int64)
+    carry = np.zeros((size, 1 << memory, size), np.int8)
+    kept = np.zeros(memory, np.int64)
+    for i in range(size):
+        for j in range(size):
+            kept[:] = 0
             barred, passed = 0, 0
             for b in range(memory):
                 if nearest[i, b] == j:
@@ -142,70 +154,137 @@ def _carry(nearest: Ints) -> Ints:
                     if nearest[i, b] >= 0 and nearest[j, a] == nearest[i, b]:
                         kept[b] = 1 << a
             for s in range(1 << memory):
-                if s & barred:
-                    carry[j, i, s] = -1
-                    continue
-                carry[j, i, s] = passed
+                known = passed
                 for b in range(memory):
                     if s >> b & 1:
-                        carry[j, i, s] |= kept[b]
+                        known |= kept[b]
+                carry[i, s, j] = -1 if s & barred else known
     return carry
 
 
 @kernel
 def _walk(
-    whole: Ints, gain: Floats, origin: int, cluster: Ints, carry: Ints, value: Floats
+    whole: Ints,
+    cost: Floats,
+    gain: Floats,
+    origin: int,
+    cluster: Ints,
+    carry: Bytes,
+    value: Floats,
 ) -> None:
-    """Fill `value`; `whole[i, j]` is the leg from i to j in steps."""
+    """Fill `value`; `whole[i, j]` is the leg from i to j in steps, `cost[i, j]` its toll.
+
+    Walks that have become better with one step more are continued, the others were before.
+    """
     size = len(gain)
-    target = size - 1 - origin
-    clustered = np.zeros(size, np.bool_)
-    worth, entry = np.zeros(size), np.empty(size)
-    for i in range(1, size - 1):
-        worth[cluster[i]] += max(gain[i], 0.0)
-        if cluster[i] != i:
-            clustered[i] = clustered[cluster[i]] = True
-    tails = np.empty((size, size), np.int64)
-    count = np.zeros(size, np.int64)
-    for j in range(size):
-        for i in range(size):
-            usable = whole[i, j] < len(value) and i != j and i != target and j != origin
-            if usable and (whole[i, j] > 0 or i == origin or j == target):
-                tails[j, count[j]] = i
-                count[j] += 1
+    worth, clustered = _cluster_worth(cluster, gain)
+    heads, count = _heads(whole, origin, len(value))
+    door, entry = np.full(size, -np.inf), np.full(size, -np.inf)
     for k in range(len(value)):
         value[k, origin, 0] = 0.0
-        for j in range(1, size - 1):
-            _arrive(whole, gain, tails[j, : count[j]], carry, j, k, value)
-        entry[:] = -np.inf
-        for j in range(1, size - 1):
-            if clustered[j]:
-                at_door = value[k, j].max() - max(gain[j], 0.0)
-                entry[cluster[j]] = max(entry[cluster[j]], at_door)
+        if k == 0:
+            _continue(
+                whole, cost[origin], gain, heads[origin, : count[origin]], carry, origin, k, value
+            )
         for j in range(1, size - 1):
             if clustered[j]:
+                door[j] = max(door[j], value[k, j].max() - max(gain[j], 0.0))
+                entry[cluster[j]] = max(entry[cluster[j]], door[j])
+        for j in range(1, size - 1):
+            if clustered[j]:
+                value[k, j] = -np.inf
                 value[k, j, 0] = entry[cluster[j]] + worth[cluster[j]]
-        _arrive(whole, gain, tails[target, : count[target]], carry, target, k, value)
+            if _settle(value, k, j):
+                _continue(whole, cost[j], gain, heads[j, : count[j]], carry, j, k, value)
+        _settle(value, k, size - 1 - origin)
     for k in range(len(value)):
         for j in range(size):
             _forget(value[k, j])
 
 
 @kernel
-def _arrive(
-    whole: Ints, gain: Floats, tails: Ints, carry: Ints, j: int, k: int, value: Floats
-) -> None:
-    """Best walks to j within k steps, for every memory."""
-    for i in tails:
-        before = k - whole[i, j]
-        if before < 0:
+def _cluster_worth(cluster: Ints, gain: Floats) -> tuple[Floats, Booleans]:
+    """What the nodes of every cluster gain together, and which nodes are in one."""
+    size = len(gain)
+    worth, clustered = np.zeros(size), np.zeros(size, np.bool_)
+    for i in range(1, size - 1):
+        worth[cluster[i]] += max(gain[i], 0.0)
+        if cluster[i] != i:
+            clustered[i] = clustered[cluster[i]] = True
+    return worth, clustered
+
+
+@kernel
+def _heads(whole: Ints, origin: int, steps: int) -> tuple[Ints, Ints]:
+    """Where walks go from every vertex, the nearest first, and how many vertices that are."""
+    size = len(whole)
+    target = size - 1 - origin
+    heads, count = np.empty((size, size), np.int64), np.zeros(size, np.int64)
+    for i in range(size):
+        if i == target:
             continue
+        for j in np.argsort(whole[i], kind="mergesort"):
+            usable = whole[i, j] < steps and i != j and j != origin
+            if usable and (whole[i, j] > 0 or i == origin or j == target):
+                heads[i, count[i]] = j
+                count[i] += 1
+    return heads, count
+
+
+@kernel
+def _settle(value: Floats, k: int, j: int) -> bool:
+    """Keep of the walks to j within k steps those that no other replaces; whether one is new.
+
+    A walk replaces another if it is worth as much and remembers no more.
+    """
+    new = False
+    if k > 0:
         for s in range(value.shape[2]):
-            known = value[before, i, s]
-            if known > -np.inf:
-                kept = carry[j, i, s]
-                if kept >= 0:
-                    value[k, j, kept] = max(value[k, j, kept], known + gain[j])
+            if value[k, j, s] > value[k - 1, j, s]:
+                new = True
+            else:
+                value[k, j, s] = value[k - 1, j, s]
+    else:
+        new = value[k, j].max() > -np.inf
+    if new:
+        best = np.empty(value.shape[2])
+        for s in range(value.shape[2]):
+            best[s] = -np.inf
+            bit = 1
+            while bit <= s:
+                if s & bit:
+                    best[s] = max(best[s], best[s ^ bit])
+                bit *= 2
+            if value[k, j, s] > best[s]:
+                best[s] = value[k, j, s]
+            else:
+                value[k, j, s] = -np.inf
+    return new
+
+
+@kernel
+def _continue(
+    whole: Ints,
+    cost: Floats,
+    gain: Floats,
+    heads: Ints,
+    carry: Bytes,
+    i: int,
+    k: int,
+    value: Floats,
+) -> None:
+    """Continue the walks to i that k steps make better."""
+    for s in range(value.shape[2]):
+        known = value[k, i, s]
+        if known == -np.inf or (k > 0 and known <= value[k - 1, i, s]):
+            continue
+        for j in heads:
+            then = k + whole[i, j]
+            if then >= len(value):
+                break
+            kept = carry[i, s, j]
+            if kept >= 0:
+                value[then, j, kept] = max(value[then, j, kept], known + gain[j] - cost[j])
 
 
 @kernel
@@ -233,7 +312,9 @@ def completion_bound(value: Floats, step: float, left: float, j: int, known: int
 
 
 @kernel
-def over_legs(leg: Floats, behind: Floats, ahead: Floats, step: float, limit: float) -> Floats:
+def over_legs(
+    leg: Floats, behind: Floats, ahead: Floats, step: float, limit: float, toll: float
+) -> Floats:
     """Most value of two walks that a leg joins within a limit, shape (size, size).
 
     Parameters
@@ -246,6 +327,8 @@ def over_legs(leg: Floats, behind: Floats, ahead: Floats, step: float, limit: fl
         h in seconds.
     limit
         Longest time in seconds.
+    toll
+        What a second costs.
     """
     size = len(leg)
     most = np.full((size, size), -np.inf)
@@ -257,4 +340,5 @@ def over_legs(leg: Floats, behind: Floats, ahead: Floats, step: float, limit: fl
             last = min(int(left / step + 1e-9), len(behind) - 1)
             for k in range(last + 1):
                 most[i, j] = max(most[i, j], behind[k, i, 0] + ahead[last - k, j, 0])
+            most[i, j] -= toll * leg[i, j]
     return most

@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_array
 
 from fiveroute.kernels import kernel
 from fiveroute.limits import Clock
@@ -25,12 +24,12 @@ from fiveroute.models.branch_price.completion import complete
 from fiveroute.models.branch_price.labels import priced, promising
 from fiveroute.models.branch_price.pool import Pool
 from fiveroute.models.branch_price.roads import Roads
-from fiveroute.plan import Route
 
 __all__ = ["enumerate_routes"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Shorts = NDArray[np.int16]
 
 _BITS = 62  # nodes in a word
 _STEPS, _MEMORY = 1000, 5  # of the completion bounds
@@ -59,7 +58,7 @@ class _Table:
         self.in_cut, self.recall, self.sigma = relaxation.duals.cut_masks()
         self.floors = relaxation.best - gap
         horizon = float(roads.limits[-1])
-        self.rest = complete(roads.leg.T, self.gain, size - 1, horizon, _STEPS, _MEMORY)
+        self.rest = complete(roads.leg.T, self.gain, size - 1, horizon, _STEPS, _MEMORY, roads.toll)
         rng = np.random.default_rng(0)
         self.code = rng.integers(1, 1 << 62, size=size)
         self.end_code = rng.integers(1, 1 << 62, size=size)
@@ -79,8 +78,8 @@ class _Table:
             while at < last:
                 at, self.count = _extend(
                     self.roads.leg, self.gain, self.in_cut, self.recall, self.sigma,
-                    self.roads.limits, self.floors, self.rest.value, self.rest.nearest,
-                    self.rest.step, self.code, self.end_code, self.words,
+                    self.roads.limits, self.floors, self.roads.toll, self.rest.value,
+                    self.rest.nearest, self.rest.step, self.code, self.end_code, self.words,
                     self.time, self.value, self.links, self.slots, self.count, at, last, _WORK,
                 )  # fmt: skip
                 if clock.expired or self.count > most:
@@ -100,35 +99,37 @@ class _Table:
     def pool(self) -> Pool:
         """The shortest route over every node set that is worth enough."""
         ends = self.links[: self.count, _END]
-        time = self.time[: self.count] + self.roads.leg[ends, -1]
+        home = self.roads.leg[ends, -1]
+        time = self.time[: self.count] + home
         classes = np.searchsorted(self.roads.limits, time)
         within = classes < len(self.roads.limits)
-        within[within] = self.value[: self.count][within] > self.floors[classes[within]]
+        value = self.value[: self.count][within] - self.roads.toll * home[within]
+        within[within] = value > self.floors[classes[within]]
         labels = np.flatnonzero(within)
         order = np.lexsort((time[labels], *self.words[labels].T))
         labels = labels[order]
         if len(labels):
             new = (np.diff(self.words[labels], axis=0) != 0).any(axis=1)
             labels = labels[np.concatenate([[True], new])]
-        visits = _visits(self.words[labels], len(self.code))
-        profit: Floats = visits.T @ self.roads.profit
-        return Pool(visits, classes[labels], profit, lambda k: self._route(int(labels[k])))
+        return Pool.along(self.roads, self._stops(labels), time[labels])
 
-    def _route(self, label: int) -> Route:
-        nodes = []
-        while self.links[label, _PARENT] >= 0:
-            nodes.append(int(self.links[label, _END]))
-            label = int(self.links[label, _PARENT])
-        return tuple(reversed(nodes))
+    def _stops(self, labels: Ints) -> Shorts:
+        """Nodes of partial routes in the order of the visits."""
+        columns: list[Shorts] = []
+        while (labels > 0).any():
+            columns.append(self.links[labels, _END].astype(np.int16))
+            labels = np.where(labels > 0, self.links[labels, _PARENT], 0)
+        stops = np.zeros((len(labels), len(columns)), dtype=np.int16)
+        for k, column in enumerate(reversed(columns)):
+            stops[:, k] = column
+        return _left_aligned(stops)
 
 
-def _visits(words: Ints, size: int) -> csc_array:
-    """Matrix of visits, shape (size, sets), of node sets given by bits."""
-    node = np.arange(size)
-    member = words[:, node // _BITS] >> (node % _BITS) & 1
-    places, nodes = np.nonzero(member)
-    starts = np.concatenate([[0], np.cumsum(member.sum(axis=1))])
-    return csc_array((np.ones(len(places)), nodes, starts), shape=(size, len(words)))
+def _left_aligned(stops: Shorts) -> Shorts:
+    """Rows with their zeros moved behind the rest."""
+    order = np.argsort(stops == 0, axis=1, kind="stable")
+    aligned: Shorts = np.take_along_axis(stops, order, axis=1)
+    return aligned
 
 
 @kernel
@@ -140,6 +141,7 @@ def _extend(
     sigma: Floats,
     limits: Floats,
     floors: Floats,
+    toll: float,
     rest: Floats,
     nearest: Ints,
     step: float,
@@ -176,7 +178,7 @@ def _extend(
                 continue
             done += 1
             cuts = links[label, 3] & recall[j]
-            v = value[label] + gain[j]
+            v = value[label] + gain[j] - toll * leg[i, j]
             paid = cuts & in_cut[j]
             if paid:
                 v -= priced(paid, sigma)

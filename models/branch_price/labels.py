@@ -85,6 +85,7 @@ def extend_labels(
     step: float,
     limits: Floats,
     floors: Floats,
+    toll: float,
     half: float,
     exact: bool,
     scale: float,
@@ -134,7 +135,7 @@ def extend_labels(
             done += 1
             if place[i, j] >= 0 and masks[label, 0] >> place[i, j] & 1:
                 continue
-            v = value[label] + gain[j]
+            v = value[label] + gain[j] - toll * leg[i, j]
             cuts = masks[label, 1] & recall[j]
             paid = cuts & in_cut[j]
             if paid:

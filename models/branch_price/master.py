@@ -10,6 +10,13 @@ a_ir being how often route r visits node i. The class of a route is the first wh
 enough for it, so that the second family lets every route be sailed by any AUV that can. A
 route of class c costs nu_c = mu_1 + ... + mu_c. Where some AUV cannot sail straight to the
 destination, every AUV needs a column, c = 1 is an equation, and slack in it is heavily fined.
+
+Where time has a price (`fiveroute.models.branch_price.roads`), columns are worth rho_r - theta t_r,
+and plans that save time by collecting little are kept out by one more row,
+
+    sum_r rho_r lambda_r >= what is known to be collected                           tau,
+
+whose multiplier makes every node worth (1 + tau) rho_i: `Duals.node` is pi_i - tau rho_i.
 """
 
 from __future__ import annotations
@@ -31,6 +38,7 @@ __all__ = ["Master"]
 Floats = NDArray[np.float64]
 
 _FINE = 10.0  # times all data, for an AUV without a route
+_SHORT_FINE = 100.0  # for what a plan collects less than the target
 
 
 class Master:
@@ -44,10 +52,18 @@ class Master:
         When to stop.
     required
         Nodes that must be visited: their rows are equations.
+    target
+        Tells what a better plan collects more than; only asked where there is a toll.
     """
 
-    def __init__(self, roads: Roads, clock: Clock, required: frozenset[int] = frozenset()) -> None:
-        self.roads, self.required = roads, required
+    def __init__(
+        self,
+        roads: Roads,
+        clock: Clock,
+        required: frozenset[int] = frozenset(),
+        target: Callable[[], float] = lambda: -np.inf,
+    ) -> None:
+        self.roads, self.required, self.target = roads, required, target
         self.routes: list[Route] = []
         self.classes: list[int] = []
         self._allowed: list[bool] = []
@@ -61,12 +77,18 @@ class Master:
         least = np.full(n + count, -np.inf)
         least[owed] = most[owed]
         self._program.add_rows(csr_array((n + count, 0)), least, most)
+        self._program.add_rows(csr_array((1, 0)), -np.inf, np.inf)
+        self._head = n + count + 1  # rows before those of the cuts
         self._first = len(owed)
         if owed:
             fine = -_FINE * max(roads.problem.total_profit, 1.0)
             entries = np.ones(len(owed)), (owed, np.arange(len(owed)))
-            slack = csc_array(entries, shape=(n + count, len(owed)))
+            slack = csc_array(entries, shape=(self._head, len(owed)))
             self._program.add_columns(np.full(len(owed), fine), 0.0, np.inf, slack)
+        if roads.toll:
+            short = csc_array(([1.0], [n + count], [0, 1]), shape=(self._head, 1))
+            self._program.add_columns([-_SHORT_FINE], 0.0, np.inf, short)
+            self._first += 1
 
     def add(self, routes: Iterable[Route]) -> int:
         """Add the routes that are new; return how many."""
@@ -83,12 +105,14 @@ class Master:
             self.classes += [auv_class for _, auv_class in new]
             self._allowed += [True] * len(new)
             matrix = self._columns([route for route, _ in new], [k for _, k in new])
-            profit = [float(self.roads.profit[list(route)].sum()) for route, _ in new]
-            self._program.add_columns(profit, 0.0, np.inf, matrix)
+            worth = [self.roads.worth(route) for route, _ in new]
+            self._program.add_columns(worth, 0.0, np.inf, matrix)
         return len(new)
 
     def _key(self, route: Route) -> Route:
         """What makes a route another column: its nodes, and with cuts their order too."""
+        if self.roads.toll:
+            return route
         return min(route, route[::-1]) if self.cuts else tuple(sorted(route))
 
     def ban(self, is_banned: Callable[[Route], bool]) -> None:
@@ -110,19 +134,21 @@ class Master:
                 visits[node - 1] = visits.get(node - 1, 0.0) + 1.0
             for c in range(auv_class + 1):
                 visits[n + c] = 1.0
+            if self.roads.toll:
+                visits[self._head - 1] = float(self.roads.profit[list(route)].sum())
             for k, cut in enumerate(self.cuts):
                 if (taken := coefficient(route, cut)) > 0:
-                    visits[n + len(self.roads.limits) + k] = float(taken)
+                    visits[self._head + k] = float(taken)
             rows += visits
             entries += visits.values()
             starts.append(len(rows))
-        height = n + len(self.roads.limits) + len(self.cuts)
-        return csc_array((entries, rows, starts), shape=(height, len(routes)))
+        shape = (self._head + len(self.cuts), len(routes))
+        return csc_array((entries, rows, starts), shape=shape)
 
     def reduced_profit(self, k: int, duals: Duals) -> float:
         """What route k is worth beyond its floor."""
         visits = list(self.routes[k])
-        value = float((self.roads.profit[visits] - duals.node[visits]).sum())
+        value = self.roads.worth(self.routes[k]) - float(duals.node[visits].sum())
         paid: float = sum(
             price * coefficient(self.routes[k], cut)
             for cut, price in zip(duals.cuts, duals.price.tolist(), strict=True)
@@ -146,16 +172,17 @@ class Master:
 
     def remove_cuts(self, places: Sequence[int]) -> None:
         """Remove cuts by their places in `cuts`."""
-        first = self.roads.problem.n + len(self.roads.limits)
-        self._program.delete_rows([first + k for k in places])
+        self._program.delete_rows([self._head + k for k in places])
         self.cuts = [cut for k, cut in enumerate(self.cuts) if k not in set(places)]
 
     def solve(self) -> Duals | None:
         """Solve; the multipliers, or None when stopped."""
+        target = self.target() if self.roads.toll else -np.inf
+        self._program.highs.changeRowBounds(self._head - 1, target, np.inf)
         if self._program.solve() is not Outcome.OPTIMAL:
             return None
         n, count = self.roads.problem.n, len(self.roads.limits)
-        self.objective = self._program.objective
+        self.objective = self._program.objective + self.roads.refund
         self.shares = self._program.values[self._first :]
         duals = self._program.row_duals
         node, floor = duals[:n].copy(), np.maximum(duals[n : n + count], 0.0)
@@ -164,11 +191,16 @@ class Master:
         node[~free] = np.maximum(node[~free], 0.0)
         if self.roads.must_detour:
             floor[0] = duals[n]
+        urge, surplus = 0.0, 0.0
+        if np.isfinite(target):
+            urge = max(-float(duals[n + count]), 0.0)
+            surplus = urge * max(self.roads.problem.total_profit - target, 0.0)
         return Duals(
-            np.pad(node, 1),
+            np.pad(node, 1) - urge * self.roads.profit,
             floor.cumsum(),
             tuple(self.cuts),
-            np.maximum(duals[n + count :], 0.0),
+            np.maximum(duals[self._head :], 0.0),
+            surplus,
         )
 
 

@@ -22,61 +22,92 @@ from fiveroute.models.common_divisor import common_divisor
 from fiveroute.models.highs import Outcome, Program
 from fiveroute.models.incumbent import Incumbent
 from fiveroute.plan import Plan, Route
+from fiveroute.result import PROOF_TOLERANCE
 
-__all__ = ["Pool", "plan_of", "sail_best"]
+__all__ = ["BETTER", "Pool", "plan_of", "sail_best"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Shorts = NDArray[np.int16]
+Booleans = NDArray[np.bool_]
+
+BETTER = PROOF_TOLERANCE / 2.0
+"""By how much, relative, a better plan is better; more than what HiGHS may be wrong by."""
 
 _MARGIN = 1e-7  # of the unit of the data; what HiGHS may be wrong by
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pool:
-    """Routes by their node sets.
+    """Routes through distinct nodes.
 
     Parameters
     ----------
+    stops
+        Nodes of every route in the order of the visits, 0 beyond the last, shape (routes, longest).
+    time
+        Their times in seconds, shape (routes,).
     visits
         `visits[i, r]` = 1 if route r visits vertex i, shape (n + 2, routes).
     classes
         First class with time for every route, shape (routes,).
     profit
         Data of every route, shape (routes,).
-    route
-        From a number to the route.
     """
 
+    stops: Shorts
+    time: Floats
     visits: csc_array
     classes: Ints
     profit: Floats
-    route: Callable[[int], Route]
 
     @classmethod
     def of(cls, roads: Roads, routes: list[Route]) -> Pool:
-        """A pool of elementary routes."""
-        lengths = [len(route) for route in routes]
-        nodes = np.array([node for route in routes for node in route], dtype=np.int64)
-        visits = csc_array(
-            (np.ones(len(nodes)), nodes, np.concatenate([[0], np.cumsum(lengths)])),
-            shape=(len(roads.leg), len(routes)),
-        )
-        classes = np.array([roads.class_of(roads.duration(r)) for r in routes], dtype=np.int64)
-        profit = np.asarray(visits.T @ roads.profit)
-        return cls(visits, classes, profit, routes.__getitem__)
+        """A pool of routes through distinct nodes."""
+        stops = np.zeros((len(routes), max(map(len, routes), default=0)), dtype=np.int16)
+        for k, route in enumerate(routes):
+            stops[k, : len(route)] = route
+        return cls.along(roads, stops, np.array([roads.duration(route) for route in routes]))
+
+    @classmethod
+    def along(cls, roads: Roads, stops: Shorts, time: Floats) -> Pool:
+        """A pool of routes with their stops and times."""
+        starts = np.concatenate([[0], np.cumsum((stops > 0).sum(axis=1))])
+        nodes = stops[stops > 0].astype(np.int64)
+        visits = csc_array((np.ones(len(nodes)), nodes, starts), shape=(len(roads.leg), len(stops)))
+        classes = np.searchsorted(roads.limits, time)
+        return cls(stops, time, visits, classes, np.asarray(visits.T @ roads.profit))
 
     def __len__(self) -> int:
         return len(self.profit)
 
+    def route(self, k: int) -> Route:
+        """The nodes of a route."""
+        return tuple(int(node) for node in self.stops[k] if node)
+
     def chosen(self, places: Ints) -> Pool:
         """The pool of some of the routes."""
-        lookup = self.route
         return Pool(
+            self.stops[places],
+            self.time[places],
             self.visits[:, places],
             self.classes[places],
             self.profit[places],
-            lambda k: lookup(int(places[k])),
         )
+
+    def without(self, legs: Booleans) -> Pool:
+        """The pool without the routes that take one of some legs, shape (n + 2, n + 2)."""
+        end = len(legs) - 1
+        barred = np.zeros(len(self), dtype=np.bool_)
+        before = np.zeros(len(self), dtype=np.int64)
+        for column in range(self.stops.shape[1] + 1):
+            here = np.zeros(len(self), dtype=np.int64)
+            if column < self.stops.shape[1]:
+                here += self.stops[:, column]
+            here[here == 0] = end
+            barred |= (before != end) & legs[before, here]
+            before = here
+        return self.chosen(np.flatnonzero(~barred))
 
 
 def sail_best(
@@ -94,7 +125,8 @@ def sail_best(
     pool
         The routes.
     roads
-        Legs, limits and AUVs.
+        Legs, limits and AUVs. Where there is a toll, plans that are better than the known one
+        are looked for by what they pay.
     incumbent
         Where plans go.
     clock
@@ -102,48 +134,83 @@ def sail_best(
     on_bound
         Told bounds on the plans over the pool.
     """
-    unit = common_divisor(roads.profit) or float(roads.profit.max()) or 1.0
+    choice = _Choice(pool, roads, incumbent, clock, on_bound)
+    if not roads.toll or incumbent.plan is None:
+        return choice.solve()
+    while True:
+        before = incumbent.objective
+        choice.demand(before + BETTER * max(1.0, before))
+        if not choice.solve():
+            return False
+        if choice.is_empty:
+            return True
+        if incumbent.objective <= before:
+            return False
 
-    def offer(values: Floats) -> bool:
+
+class _Choice:
+    """The integer programme over a pool."""
+
+    def __init__(
+        self,
+        pool: Pool,
+        roads: Roads,
+        incumbent: Incumbent,
+        clock: Clock,
+        on_bound: Callable[[float], None] | None,
+    ) -> None:
+        self.pool, self.roads, self.incumbent, self.on_bound = pool, roads, incumbent, on_bound
+        self.unit = common_divisor(roads.profit) or float(roads.profit.max()) or 1.0
+        self.is_empty = False
+        self.program = Program(clock, maximise=True, on_progress=self._tell, on_solution=self._note)
+        above = roads.routes[::-1].cumsum()[::-1]
+        needs = csr_array(pool.classes >= np.arange(len(above))[:, None], dtype=np.float64)
+        least = np.full(len(above), -np.inf)
+        if roads.must_detour:
+            least[0] = above[0]
+        is_direct = pool.visits.indptr[1:] == pool.visits.indptr[:-1]  # any number may sail it
+        most = np.where(is_direct, float(roads.problem.fleet_size), 1.0)
+        worth = pool.profit - roads.toll * pool.time
+        self.program.add_columns(worth / self.unit, 0.0, most, integer=True)
+        nodes = csr_array(pool.visits)[1:-1]
+        data = csr_array(pool.profit[None, :])
+        self.program.add_rows(
+            csr_array(vstack([data, nodes, needs])),
+            np.concatenate([np.full(roads.problem.n + 1, -np.inf), least]),
+            np.concatenate([[np.inf], np.ones(roads.problem.n), above]),
+        )
+        self.program.require_integers(True)
+        self.program.set("mip_rel_gap", clock.limits.gap)
+        self.program.set("mip_abs_gap", 0.0)
+
+    def demand(self, data: float) -> None:
+        """Ask for a plan that collects as much."""
+        self.program.highs.changeRowBounds(0, data, np.inf)
+
+    def solve(self) -> bool:
+        """Offer the best plan; whether there is none better."""
+        outcome = self.program.solve()
+        if outcome is Outcome.INFEASIBLE:
+            self.is_empty = True
+            if self.on_bound is not None:
+                self.on_bound(-np.inf)
+            return True
+        accepted = not self.program.has_solution or self._offer(self.program.values)
+        self._tell(None, self.program.bound)
+        return outcome is Outcome.OPTIMAL and accepted
+
+    def _offer(self, values: Floats) -> bool:
         times = np.rint(values).astype(np.int64)
-        routes = [pool.route(int(k)) for k in np.repeat(np.arange(len(times)), times)]
-        plan = plan_of(roads, routes)
-        return plan is not None and incumbent.offer(plan)
+        routes = [self.pool.route(int(k)) for k in np.repeat(np.arange(len(times)), times)]
+        plan = plan_of(self.roads, routes)
+        return plan is not None and self.incumbent.offer(plan)
 
-    def tell(_: float | None, bound: float | None) -> None:
-        if on_bound is not None and bound is not None:
-            on_bound((bound + _MARGIN) * unit)
+    def _note(self, values: Floats) -> None:
+        self._offer(values)
 
-    def note(values: Floats) -> None:
-        offer(values)
-
-    program = Program(clock, maximise=True, on_progress=tell, on_solution=note)
-    above = roads.routes[::-1].cumsum()[::-1]
-    needs = csr_array(pool.classes >= np.arange(len(above))[:, None], dtype=np.float64)
-    least = np.full(len(above), -np.inf)
-    if roads.must_detour:
-        least[0] = above[0]
-    is_direct = pool.visits.indptr[1:] == pool.visits.indptr[:-1]  # any number of AUVs may sail it
-    most = np.where(is_direct, float(roads.problem.fleet_size), 1.0)
-    program.add_columns(pool.profit / unit, 0.0, most, integer=True)
-    nodes = csr_array(pool.visits)[1:-1]
-    program.add_rows(
-        csr_array(vstack([nodes, needs])),
-        np.concatenate([np.full(roads.problem.n, -np.inf), least]),
-        np.concatenate([np.ones(roads.problem.n), above]),
-    )
-    program.require_integers(True)
-    program.set("mip_rel_gap", clock.limits.gap)
-    program.set("mip_abs_gap", 0.0)
-    outcome = program.solve()
-    if outcome is Outcome.INFEASIBLE:
-        if on_bound is not None:
-            on_bound(-np.inf)
-        return True
-    accepted = not program.has_solution or offer(program.values)
-    if on_bound is not None and np.isfinite(program.bound):
-        on_bound((program.bound + _MARGIN) * unit)
-    return outcome is Outcome.OPTIMAL and accepted
+    def _tell(self, _: float | None, bound: float | None) -> None:
+        if self.on_bound is not None and bound is not None and np.isfinite(bound):
+            self.on_bound((bound + _MARGIN) * self.unit + self.roads.refund)
 
 
 def plan_of(roads: Roads, routes: list[Route]) -> Plan | None:

@@ -69,12 +69,15 @@ class Duals:
         Subset-row cuts.
     price
         sigma, shape (len(cuts),), not negative.
+    surplus
+        Constant part of the bound, not negative.
     """
 
     node: Floats
     floor: Floats
     cuts: tuple[Cut, ...] = ()
     price: Floats = field(default_factory=lambda: np.zeros(0))
+    surplus: float = 0.0
 
     def between(self, other: Duals, share: float) -> Duals:
         """`share` of these and the rest of others with the same cuts."""
@@ -84,7 +87,12 @@ class Duals:
             node=share * self.node + rest * other.node,
             floor=share * self.floor + rest * other.floor,
             price=share * self.price + rest * other.price,
+            surplus=share * self.surplus + rest * other.surplus,
         )
+
+    def at_no_floor(self) -> Duals:
+        """The same multipliers, all routes being welcome."""
+        return replace(self, floor=np.full(len(self.floor), -np.inf))
 
     def cut_masks(self) -> tuple[Ints, Ints, Floats]:
         """Cuts in bits, those of no price left out.
@@ -103,7 +111,7 @@ class Duals:
             recall[list(self.cuts[k].memory)] |= 1 << bit
         return in_cut, recall, self.price[valued]
 
-    def bound(self, routes: Floats, best: Floats) -> float:
+    def bound(self, routes: Floats, best: Floats, refund: float = 0.0) -> float:
         """Bound on the data of all plans, rounded up.
 
         Parameters
@@ -112,10 +120,12 @@ class Duals:
             Number of AUVs M_c of every class, shape (C,).
         best
             best_c, or bounds on it, shape (C,).
+        refund
+            What all routes together pay in toll at most.
         """
         if best.min() == -np.inf:  # some class has no route at all
             return -np.inf
-        terms = np.concatenate([self.node, self.price, routes * best])
+        terms = np.concatenate([self.node, self.price, routes * best, [refund, self.surplus]])
         return float(terms.sum()) + _SAFE * float(np.abs(terms).sum())
 
 
@@ -162,14 +172,14 @@ class Pricer:
         horizon = float(self.roads.limits[-1])
         memory = _MEMORY if exact else _QUICK_MEMORY
         end = len(graph.gain) - 1
-        behind = complete(graph.leg, graph.gain, 0, horizon, _STEPS, memory)
+        behind = graph.complete(0, horizon, memory)
         walks = behind.of_routes(self.roads.limits, end)
         floor = np.nextafter(duals.floor, np.inf)
         if (walks <= floor).all():
             return Priced([], walks, True)
         if clock.expired:
             return Priced([], walks, False)
-        ahead = complete(graph.leg.T, graph.gain, end, horizon, _STEPS, memory)
+        ahead = graph.complete(end, horizon, memory)
         half = self.half * horizon
         search = _Search(graph, self.roads.limits, floor, exact, clock, self.most_labels)
         forward, backward = search.start(0), search.start(end)
@@ -189,7 +199,7 @@ class Pricer:
         """Bounds on best_c from walks alone."""
         graph = _Graph.of(self.roads, self.roads.profit - duals.node, self.near, duals)
         horizon = float(self.roads.limits[-1])
-        behind = complete(graph.leg, graph.gain, 0, horizon, _STEPS, _MEMORY)
+        behind = graph.complete(0, horizon, _MEMORY)
         return behind.of_routes(self.roads.limits, len(graph.gain) - 1)
 
     def remembered_by_walks(self, duals: Duals) -> Booleans:
@@ -203,13 +213,14 @@ class Pricer:
 
     def useless_legs(self, duals: Duals, floors: Floats) -> Booleans:
         """Legs on no route that is worth more than its floor, by walks, shape (n + 2, n + 2)."""
-        leg, gain = self.roads.leg, self.roads.profit - duals.node
+        leg, gain, toll = self.roads.leg, self.roads.profit - duals.node, self.roads.toll
         horizon = float(self.roads.limits[-1])
-        behind = complete(leg, gain, 0, horizon, _STEPS, _MEMORY)
-        ahead = complete(leg.T, gain, len(gain) - 1, horizon, _STEPS, _MEMORY)
+        behind = complete(leg, gain, 0, horizon, _STEPS, _MEMORY, toll)
+        ahead = complete(leg.T, gain, len(gain) - 1, horizon, _STEPS, _MEMORY, toll)
         useless = np.ones(leg.shape, dtype=np.bool_)
         for limit, floor in zip(self.roads.limits.tolist(), floors.tolist(), strict=True):
-            useless &= over_legs(leg, behind.value, ahead.value, behind.step, limit) <= floor
+            most = over_legs(leg, behind.value, ahead.value, behind.step, limit, toll)
+            useless &= most <= floor
         return useless
 
     def _balance(self, forward: int, backward: int) -> None:
@@ -231,6 +242,7 @@ class _Graph:
     in_cut: Ints
     recall: Ints
     sigma: Floats
+    toll: float
 
     @classmethod
     def of(cls, roads: Roads, gain: Floats, near: Booleans, duals: Duals) -> _Graph:
@@ -251,7 +263,13 @@ class _Graph:
             in_cut[nodes],
             recall[nodes],
             sigma,
+            roads.toll,
         )
+
+    def complete(self, origin: int, horizon: float, memory: int) -> Completion:
+        """All walks from one of the ends."""
+        leg = self.leg if origin == 0 else self.leg.T
+        return complete(leg, self.gain, origin, horizon, _STEPS, memory, self.toll)
 
 
 class _Labels:
@@ -314,8 +332,9 @@ class _Search:
             outcome = lb.extend_labels(
                 leg, graph.gain, graph.members, graph.place, graph.in_cut, graph.recall,
                 graph.sigma, rest.value, places, rest.step, self.limits,
-                self.floors, half, self.exact, self.scale, side.time, side.value, side.masks,
-                side.links, side.first, side.top, side.waiting, side.state, _WORK,
+                self.floors, graph.toll, half, self.exact, self.scale,
+                side.time, side.value, side.masks, side.links,
+                side.first, side.top, side.waiting, side.state, _WORK,
             )  # fmt: skip
             if outcome == lb.DONE:
                 return True

@@ -44,6 +44,8 @@ class Roads:
     earliest, remaining
         Least time from the start to the end of the service at every vertex, and from there
         to the destination, in seconds, shape (n + 2,).
+    toll
+        What a second costs, in data; see `refund`.
     """
 
     problem: TeamOrienteering
@@ -53,6 +55,7 @@ class Roads:
     members: tuple[tuple[int, ...], ...]
     earliest: Floats
     remaining: Floats
+    toll: float = 0.0
 
     @classmethod
     def of(cls, network: Network) -> Roads:
@@ -83,6 +86,16 @@ class Roads:
     def must_detour(self) -> bool:
         """Whether the direct leg is too long for some AUV, so that it needs a node."""
         return bool(self.leg[0, -1] > self.limits[0])
+
+    @property
+    def refund(self) -> float:
+        """What the time of the whole fleet costs: no plan pays more toll than that."""
+        return self.toll * float(self.routes @ self.limits)
+
+    def worth(self, route: tuple[int, ...]) -> float:
+        """Data of a route less its toll."""
+        data = float(self.profit[list(route)].sum())
+        return data - self.toll * self.duration(route) if self.toll else data
 
     def without(self, legs: Booleans) -> Roads:
         """The roads without some legs, shape (n + 2, n + 2)."""

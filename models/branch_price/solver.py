@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 import itertools
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,7 @@ from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.models.bounds import Effort, quick_bound
 from fiveroute.models.branch_price.elementary import enumerate_routes
 from fiveroute.models.branch_price.neighbourhoods import nearest
-from fiveroute.models.branch_price.pool import Pool, plan_of, sail_best
+from fiveroute.models.branch_price.pool import BETTER, Pool, plan_of, sail_best
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.models.branch_price.subproblem import Branch, Subproblem
 from fiveroute.models.common_divisor import common_divisor, rounded_down
@@ -31,8 +32,13 @@ _NEIGHBOURS = 8
 _SMALL = 25  # nodes up to which a quick bound is not worth its time
 _TOO_LARGE = 500  # nodes above which a quick bound and a greedy plan are all
 _PLAN_TIME = 3.0  # seconds for a plan over the routes of the master problem
-_FIRST_PARTIAL, _MOST_PARTIAL = 400_000, 3_000_000  # partial routes of an enumeration
-_ROUTES_TO_SAIL = 6_000  # routes among which HiGHS finds the best plan in good time
+_FIRST_PARTIAL, _MOST_PARTIAL = 400_000, 4_000_000  # partial routes of an enumeration
+_MOST_ROUTES = 500_000  # routes to price by inspection
+_ROUTES_TO_SAIL, _MOST_ROUTES_TO_SAIL = 2_000, 6_000  # routes that HiGHS chooses among in good time
+_SMALLER = 0.9  # share of a gap for which there were too many routes, and another try pays
+_NEARLY = 0.97  # share of all data, from which on time is what is scarce
+_FEWER = 0.9  # share of legs left that makes it worth while
+_TOLL = 0.1  # share of the data that a fleet pays for its time
 _SAFE = 1e-9
 _CUT_ROUNDS = 30
 
@@ -92,7 +98,7 @@ class _Tree:
         self.clock = incumbent.clock
         self.near = nearest(roads, _NEIGHBOURS)
         self.step = common_divisor(roads.profit) or 0.0
-        self.partial = _FIRST_PARTIAL
+        self.partial, self.too_wide = _FIRST_PARTIAL, np.inf
         self.open: list[tuple[float, int, Branch, Subproblem | None]] = []
         self.order = itertools.count()
         self.under_way = self.stuck = -np.inf
@@ -122,14 +128,15 @@ class _Tree:
     def branch(self, here: Subproblem, bound: float) -> None:
         """Divide a subproblem, or take its plan where there is nothing to divide."""
         while not self.is_low_enough(bound):
+            if here.is_whole():
+                plan = plan_of(self.roads, here.whole_routes())
+                if plan is not None:
+                    self.incumbent.offer(plan)
             children = here.branches()
             for child in children:
                 self.push(bound, child, here)
             if children or self.clock.expired:
                 break
-            plan = plan_of(self.roads, here.whole_routes())
-            if plan is not None:
-                self.incumbent.offer(plan)
             here.relax(self.on_bound)  # with a better plan it converges further
             if here.bound >= bound:
                 break
@@ -146,7 +153,8 @@ class _Tree:
         """What a better plan collects more than."""
         if self.incumbent.plan is None:  # a plan may collect nothing at all
             return -_SAFE * max(1.0, self.roads.problem.total_profit)
-        return self.incumbent.objective + 0.999 * self.step
+        known = self.incumbent.objective
+        return known + max(0.999 * self.step, BETTER * max(1.0, known))
 
     def is_low_enough(self, bound: float) -> bool:
         """Whether no better plan can be left under a bound."""
@@ -165,53 +173,83 @@ class _Tree:
 
     def lower(self, bound: float) -> None:
         """Report a bound on all plans."""
-        least = max(self.incumbent.objective, 0.0)
-        self.incumbent.lower(max(rounded_down(bound, self.roads.profit), least))
+        self.incumbent.lower(rounded_down(max(bound, self.target()), self.roads.profit))
 
     def explore(self, branch: Branch, parent: Subproblem | None) -> Subproblem | None:
         """Solve a subproblem as far as cuts and enumeration go; None when it is settled."""
-        here = Subproblem(self.roads, branch, self.near, self.clock, self.target)
+        here = self.here = Subproblem(self.roads, branch, self.near, self.clock, self.target)
+        if self.is_low_enough(here.all_data()):
+            return None
         if parent is not None:
-            here.pricer.half = parent.pricer.half
-            here.start_from(parent.master.routes, parent.master.cuts)
+            here.follow(parent)
         else:
             here.start_from(self.incumbent.plan.routes if self.incumbent.plan else [], [])
-        self.here = here
         has_converged = here.relax(self.on_bound)
         if parent is None and has_converged:
             self.plan_over_known_routes(here)
+            here = self.here = self.with_toll(here)
         for _ in range(_CUT_ROUNDS):
             if self.is_low_enough(here.bound):
                 return None
             if self.clock.expired or self.incumbent.is_settled:
                 return here
-            if self.settle(here):
+            if here.pool is None and (pool := self.enumerated(here)) is not None:
+                here = self.here = here.inspect(pool)
+                if len(pool) > _ROUTES_TO_SAIL:
+                    here.relax(self.on_bound)
+                    continue
+            if self.settle(here, _ROUTES_TO_SAIL):
                 return None
             if not has_converged or not here.cut(self.on_bound):
                 break
-            self.partial = min(2 * self.partial, _MOST_PARTIAL)
+        if self.settle(here, _MOST_ROUTES_TO_SAIL):
+            return None
         return here
 
-    def settle(self, here: Subproblem) -> bool:
-        """Enumerate all routes of better plans, and sail the best of them, if they are few."""
-        if here.relaxation is None:
-            return False
+    def with_toll(self, here: Subproblem) -> Subproblem:
+        """The root with a toll on time, if that leaves fewer legs."""
+        everything = self.roads.problem.total_profit
+        if here.bound < _NEARLY * everything or self.is_low_enough(here.bound):
+            return here
+        toll = _TOLL * everything / float(self.roads.routes @ self.roads.limits)
+        roads = replace(self.roads, toll=toll)
+        other = Subproblem(roads, here.branch, self.near, self.clock, self.target)
+        other.start_from(here.master.routes, [])
+        has_converged = other.relax(lambda _: None)
+        few = np.isfinite(other.roads.leg).sum() < _FEWER * np.isfinite(here.roads.leg).sum()
+        if self.is_low_enough(other.bound) or (has_converged and few):
+            self.roads = roads
+            return other
+        return here
+
+    def enumerated(self, here: Subproblem) -> Pool | None:
+        """All routes of better plans, if they are few."""
+        gap = here.bound - self.target()
+        if here.relaxation is None or gap > _SMALLER * self.too_wide:
+            return None
         pool = enumerate_routes(
             here.roads, here.relaxation, self.target(), self.clock, self.partial
         )
-        if pool is None or len(pool) > _ROUTES_TO_SAIL:
+        if pool is None or len(pool) > _MOST_ROUTES:
+            self.partial = min(2 * self.partial, _MOST_PARTIAL)
+            self.too_wide = gap
+            return None
+        return pool
+
+    def settle(self, here: Subproblem, most: int) -> bool:
+        """Sail the best routes of better plans, if they are all known and no more than `most`."""
+        if here.pool is None or len(here.pool) > most:
             return False
-        done = sail_best(
-            pool,
+        return sail_best(
+            here.pool,
             here.roads,
             self.incumbent,
             self.clock,
             on_bound=lambda bound: self.on_bound(max(bound, self.target())),
         )
-        return done
 
     def plan_over_known_routes(self, here: Subproblem) -> None:
         """Look for a plan over the elementary routes that the master problem knows."""
         routes = [route for route in here.master.routes if len(set(route)) == len(route)]
         clock = self.clock.rest().within(_PLAN_TIME).start()
-        sail_best(Pool.of(here.roads, routes), here.roads, self.incumbent, clock)
+        sail_best(Pool.of(self.roads, routes), self.roads, self.incumbent, clock)

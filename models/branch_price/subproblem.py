@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 from fiveroute.limits import Clock
 from fiveroute.models.branch_price.column_generation import Relaxation, generate
 from fiveroute.models.branch_price.cuts import MOST_CUTS, separate
+from fiveroute.models.branch_price.inspection import Inspector
 from fiveroute.models.branch_price.master import Master
 from fiveroute.models.branch_price.neighbourhoods import grow, is_forgetful
+from fiveroute.models.branch_price.pool import Pool
 from fiveroute.models.branch_price.pricing import Cut, Pricer
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.plan import Route
@@ -29,10 +31,11 @@ _CUTS_AT_ONCE = 20
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """What sets a subproblem apart: forbidden legs and required nodes."""
+    """What sets a subproblem apart: forbidden legs, required nodes, and its routes if known."""
 
     forbidden: Booleans
     required: frozenset[int]
+    pool: Pool | None = None
 
 
 class Subproblem:
@@ -62,14 +65,40 @@ class Subproblem:
     ) -> None:
         self.branch, self.near, self.clock, self.target = branch, near, clock, target
         self.roads = roads.without(branch.forbidden)
-        self.pricer = Pricer(self.roads, near)
-        self.master = Master(self.roads, clock, branch.required)
+        self.pricer: Pricer | Inspector = Pricer(self.roads, near)
+        if branch.pool is not None:
+            self.pricer = Inspector(self.roads, branch.pool.without(branch.forbidden))
+        self.master = Master(self.roads, clock, branch.required, target)
         self.relaxation: Relaxation | None = None
+
+    @property
+    def pool(self) -> Pool | None:
+        """All routes of better plans; None where they are not known one by one."""
+        return self.pricer.pool if isinstance(self.pricer, Inspector) else None
+
+    def inspect(self, pool: Pool) -> Subproblem:
+        """The same subproblem, its routes priced by inspection from now on."""
+        branch = replace(self.branch, pool=pool)
+        other = Subproblem(self.roads, branch, self.near, self.clock, self.target)
+        assert self.relaxation is not None
+        assert isinstance(other.pricer, Inspector)
+        known = other.pricer.price(self.relaxation.duals.at_no_floor(), self.clock)
+        other.master.add([(), *known.routes])
+        every = frozenset(range(len(self.near)))
+        nodes = dict.fromkeys(cut.nodes for cut in self.master.cuts)
+        other.master.add_cuts([Cut(three, every) for three in nodes])
+        return other
 
     @property
     def bound(self) -> float:
         """The lowest bound so far."""
         return np.inf if self.relaxation is None else self.relaxation.value
+
+    def follow(self, parent: Subproblem) -> None:
+        """Take over routes, cuts and the half-way point."""
+        if isinstance(self.pricer, Pricer) and isinstance(parent.pricer, Pricer):
+            self.pricer.half = parent.pricer.half
+        self.start_from(parent.master.routes, parent.master.cuts)
 
     def start_from(self, routes: Iterable[Route], cuts: list[Cut]) -> None:
         """Take over routes and cuts."""
@@ -96,17 +125,22 @@ class Subproblem:
                 self.relaxation = relaxation
             if not relaxation.has_converged or self.bound <= self.target():
                 return False
-            self.close_roads()
+            self.strike_off()
+            if self.pool is not None:
+                return True
             routes, _ = self.solution()
             if not grow(self.near, routes, _MOST_NEIGHBOURS):
                 return True
             self.master.ban(lambda route: not is_forgetful(self.near, route))
 
-    def close_roads(self) -> None:
-        """Forbid legs that no better plan takes; of no effect on the bound of those that do."""
+    def strike_off(self) -> None:
+        """Forbid legs or routes of no better plan; of no effect on the bound of those that are."""
         assert self.relaxation is not None
         floors = self.relaxation.best - (self.relaxation.value - self.target())
         floors -= 1e-9 * max(1.0, abs(self.relaxation.value))
+        if isinstance(self.pricer, Inspector):
+            self.pricer.strike_off(self.relaxation.duals, floors)
+            return
         useless = self.pricer.useless_legs(self.relaxation.duals, floors)
         self.branch = replace(self.branch, forbidden=self.branch.forbidden | useless)
         self.roads = self.pricer.roads = self.roads.without(useless)
@@ -123,8 +157,12 @@ class Subproblem:
         if len(self.master.cuts) == len(self.relaxation.duals.price):
             self.master.remove_cuts(idle.tolist())
         routes, shares = self.solution()
-        room = min(_CUTS_AT_ONCE, MOST_CUTS - len(self.master.cuts))
+        room = _CUTS_AT_ONCE
+        if self.pool is None:
+            room = min(room, MOST_CUTS - len(self.master.cuts))
         cuts = separate(routes, shares, len(self.near), room)
+        if self.pool is not None:
+            cuts = [replace(cut, memory=frozenset(range(len(self.near)))) for cut in cuts]
         if not cuts:
             return False
         self.master.add_cuts(cuts)
@@ -161,15 +199,36 @@ class Subproblem:
         best = min(use, key=lambda leg: (abs(use[leg] - 0.5), leg), default=None)
         return best if best is not None and abs(use[best] - 0.5) < 0.5 - 1e-4 else None
 
+    def is_whole(self) -> bool:
+        """Whether the last solution is a plan."""
+        return self.fractional_node() is None and self.fractional_leg() is None
+
+    def node_left_out(self) -> int | None:
+        """The node with most data that the last solution could visit and does not."""
+        visited = {node for route in self.solution()[0] for node in route}
+        rest = [k for k in np.flatnonzero(self._within_reach()).tolist() if k not in visited]
+        return max(rest, key=self.roads.profit.__getitem__, default=None)
+
+    def all_data(self) -> float:
+        """Data of all nodes that legs lead to."""
+        return float(self.roads.profit[self._within_reach()].sum()) * (1.0 + 1e-12)
+
+    def _within_reach(self) -> Booleans:
+        inner = np.asarray(np.isfinite(self.roads.leg).any(axis=0))
+        inner[[0, -1]] = False
+        return inner
+
     def branches(self) -> list[Branch]:
         """Two subproblems that share all plans of this one between them; none if it is whole."""
         node = self.fractional_node()
+        if node is None and self.roads.toll and self.is_whole():
+            node = self.node_left_out()
         if node is not None:
             idle = self.branch.forbidden.copy()
             idle[node] = idle[:, node] = True
             return [
-                Branch(self.branch.forbidden, self.branch.required | {node}),
-                Branch(idle, self.branch.required),
+                Branch(self.branch.forbidden, self.branch.required | {node}, self.pool),
+                Branch(idle, self.branch.required, self.pool),
             ]
         leg = self.fractional_leg()
         if leg is None:
@@ -182,4 +241,7 @@ class Subproblem:
         if leg[1] in ends:
             only[:, leg[1]] = True
         only[leg] = self.branch.forbidden[leg]
-        return [Branch(only, self.branch.required | ends), Branch(without, self.branch.required)]
+        return [
+            Branch(only, self.branch.required | ends, self.pool),
+            Branch(without, self.branch.required, self.pool),
+        ]

@@ -72,7 +72,7 @@ def test_a_leg_is_worth_as_much_as_any_route_over_it(seed: int) -> None:
     leg, gain = field(seed)
     behind = complete(leg, gain, 0, 15.0, 60, 2)
     ahead = complete(leg.T, gain, 6, 15.0, 60, 2)
-    most = over_legs(leg, behind.value, ahead.value, behind.step, 15.0)
+    most = over_legs(leg, behind.value, ahead.value, behind.step, 15.0, 0.0)
     for time, nodes in routes_to(leg, 6):
         if time <= 15.0:
             value = gain[list(nodes)].sum()
