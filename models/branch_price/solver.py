@@ -132,6 +132,9 @@ class _Tree:
                 plan = plan_of(self.roads, here.whole_routes())
                 if plan is not None:
                     self.incumbent.offer(plan)
+                bound = min(bound, here.all_data())
+                if self.is_low_enough(bound):
+                    return
             children = here.branches()
             for child in children:
                 self.push(bound, child, here)
@@ -195,9 +198,10 @@ class _Tree:
                 return here
             if here.pool is None and (pool := self.enumerated(here)) is not None:
                 here = self.here = here.inspect(pool)
-                if len(pool) > _ROUTES_TO_SAIL:
-                    here.relax(self.on_bound)
-                    continue
+                if self.settle(here, _ROUTES_TO_SAIL):
+                    return None
+                has_converged = here.relax(self.on_bound)
+                continue
             if self.settle(here, _ROUTES_TO_SAIL):
                 return None
             if not has_converged or not here.cut(self.on_bound):

@@ -205,16 +205,20 @@ class Subproblem:
 
     def node_left_out(self) -> int | None:
         """The node with most data that the last solution could visit and does not."""
-        visited = {node for route in self.solution()[0] for node in route}
-        rest = [k for k in np.flatnonzero(self._within_reach()).tolist() if k not in visited]
+        left = self._within_reach()
+        left[[node for route in self.whole_routes() for node in route]] = False
+        left[list(self.branch.required)] = False
+        rest = np.flatnonzero(left).tolist()
         return max(rest, key=self.roads.profit.__getitem__, default=None)
 
     def all_data(self) -> float:
-        """Data of all nodes that legs lead to."""
+        """Data of all nodes that routes can visit."""
         return float(self.roads.profit[self._within_reach()].sum()) * (1.0 + 1e-12)
 
     def _within_reach(self) -> Booleans:
         inner = np.asarray(np.isfinite(self.roads.leg).any(axis=0))
+        if self.pool is not None:
+            inner &= np.asarray(self.pool.visits.sum(axis=1) > 0.0)
         inner[[0, -1]] = False
         return inner
 
