@@ -4,8 +4,9 @@ The paper improves one AUV's route after the other. Here any node may go to any 
 time: routes are ruined by string removal and recreated by greedy insertion
 (`fiveroute.heuristics.fleet`, after J. Christiaens and G. Vanden Berghe, Transportation
 Science 54(2), 2020, doi 10.1287/trsc.2019.0914, made for routes that need not visit all),
-under simulated annealing from hot to cold. Best means most data J, equation (2), and
-among plans of equal J the least total time.
+under simulated annealing from hot to cold. Several such searches go on in parallel and
+start anew, time after time, from the best combination of all their routes. Best means most
+data J, equation (2), and among plans of equal J the least total time.
 
 Times may be asymmetric and break the triangle inequality; budgets may differ.
 """
@@ -13,16 +14,13 @@ Times may be asymmetric and break the triangle inequality; budgets may differ.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+import os
 
 import numpy as np
 
 from fiveroute.check import check
 from fiveroute.errors import InputError
-from fiveroute.heuristics.fleet.annealing import BEST_PROFIT, anneal
-from fiveroute.heuristics.fleet.chains import NEXT, Chains, build_chains, to_plan
-from fiveroute.heuristics.fleet.network import Floats, Ints, Network, build_network
-from fiveroute.heuristics.randomness import RandomState, random_state
+from fiveroute.heuristics.fleet.archipelago import ISLANDS, Archipelago, crew
 from fiveroute.heuristics.shortest_routes import shortest_routes
 from fiveroute.limits import Limits, Progress, ProgressCallback
 from fiveroute.plan import Plan
@@ -30,17 +28,8 @@ from fiveroute.problem import TeamOrienteering
 
 __all__ = ["default_trials", "fleet_search"]
 
-HOT, COLD = 1.0, 0.1
-"""First and last temperature, in mean data of a node."""
-
-PRICE = 0.1
-"""Price of a second, in data per second were all data collected in all the time."""
-
-REACH = 60
-"""Near nodes that are listed for every node."""
-
 SLICE = 500
-"""Trials between two looks at the clock: some 10 to 20 milliseconds."""
+"""Trials on every island between two looks at the clock: some 5 to 20 milliseconds each."""
 
 
 def fleet_search(
@@ -50,6 +39,8 @@ def fleet_search(
     rng: np.random.Generator,
     warm_start: Plan | None = None,
     iterations: int | None = None,
+    enough: float = math.inf,
+    workers: int | None = None,
     progress: ProgressCallback | None = None,
 ) -> Plan:
     """Search for the plan that collects most, and among those for the fastest.
@@ -65,8 +56,12 @@ def fleet_search(
     warm_start
         A feasible plan to start from; the answer is never worse.
     iterations
-        Number of trials; None means as many as the time limit allows, or without one
-        `default_trials`.
+        Number of trials on all islands together; None means as many as the time limit
+        allows, or without one `default_trials`.
+    enough
+        Data at which to stop, such as an upper bound.
+    workers
+        Number of threads; None means one for every core. The answer does not depend on it.
     progress
         Called with every better plan's objective.
 
@@ -78,100 +73,25 @@ def fleet_search(
     limits = limits or Limits()
     clock = limits.start()
     start = _first_plan(problem, warm_start)
-    search = _Search.start_from(start, problem, rng)
+    archipelago = Archipelago.around(start, problem, rng)
     trials = _trials(problem, limits, iterations)
-    done, best = 0, search.objective
-    while done < trials and not search.has_all and not clock.expired:
-        cooled = max(done / trials, clock.seconds / limits.time if limits.time > 0.0 else 1.0)
-        count = int(min(SLICE, trials - done))
-        search.run(count, HOT * (COLD / HOT) ** cooled)
-        done += count
-        if progress is not None and search.objective > best:
-            progress(Progress(clock.seconds, search.objective, message="fleet search"))
-        best = search.objective
-    return _better_of(problem, search.plan, start)
+    done, best = 0, archipelago.objective
+    enough = min(enough, archipelago.most) * (1.0 - 1e-12)
+    with crew(workers or os.cpu_count() or 1) as for_each:
+        while done < trials and archipelago.objective < enough and not clock.expired:
+            part = max(done / trials, clock.seconds / limits.time if limits.time > 0.0 else 1.0)
+            count = math.ceil(min(SLICE, (trials - done) / ISLANDS))
+            archipelago.run(count, part, for_each)
+            done += count * ISLANDS
+            if progress is not None and archipelago.objective > best:
+                progress(Progress(clock.seconds, archipelago.objective, message="fleet search"))
+            best = archipelago.objective
+    return _better_of(problem, archipelago.plan, start)
 
 
 def default_trials(n: int) -> int:
     """Trials without a time limit: about 1 s for 60 nodes, about 40 s for 5,000."""
     return 80_000 + 300 * n
-
-
-@dataclass(frozen=True, slots=True)
-class _Search:
-    """The arrays that the kernels change, and what stays the same.
-
-    Parameters
-    ----------
-    network
-        The problem, its limits wide enough for the plan to start from.
-    chains
-        The current routes.
-    best
-        The stop behind every stop in the best routes.
-    score
-        Data of the current routes, and data and total time of the best ones.
-    price
-        Data that a second is worth.
-    state
-        Random state of the kernels.
-    """
-
-    network: Network
-    chains: Chains
-    best: Ints
-    score: Floats
-    price: float
-    state: RandomState
-
-    @classmethod
-    def start_from(cls, plan: Plan, problem: TeamOrienteering, rng: np.random.Generator) -> _Search:
-        """A search whose current and best routes are those of a plan."""
-        network = build_network(problem, REACH)
-        chains = build_chains(network, plan)
-        limit = np.maximum(network.limit, chains.time)  # a plan at the very edge stays legal
-        collected = plan.objective(problem)
-        return cls(
-            network._replace(limit=limit),
-            chains,
-            chains.stops[:, NEXT].copy(),
-            np.array([collected, collected, chains.time.sum()]),
-            PRICE * problem.total_profit / (float(problem.budgets.sum()) or 1.0),
-            random_state(rng),
-        )
-
-    @property
-    def objective(self) -> float:
-        """Data that the best routes collect."""
-        return float(self.score[BEST_PROFIT])
-
-    @property
-    def has_all(self) -> bool:
-        """Whether the best routes collect all that any AUV has time for."""
-        return self.objective >= float(self.network.profit.sum()) * (1.0 - 1e-12)
-
-    @property
-    def plan(self) -> Plan:
-        """The best routes."""
-        return to_plan(self.network, self.best)
-
-    def run(self, trials: int, temperature: float) -> None:
-        """Make trials at a temperature in units of a node's mean data."""
-        net = self.network
-        anneal(
-            net.leg,
-            net.back,
-            net.profit,
-            net.limit,
-            net.near,
-            *self.chains,
-            self.best,
-            self.score,
-            trials,
-            temperature * float(net.profit.mean()),
-            self.price,
-            self.state,
-        )
 
 
 def _first_plan(problem: TeamOrienteering, warm_start: Plan | None) -> Plan:

@@ -15,13 +15,13 @@ tuple counts a reference, which costs more than a change does.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from fiveroute.heuristics.fleet.network import Floats, Ints, Network
+from fiveroute.heuristics.fleet.network import Floats, Ints, Network, Trail
 from fiveroute.kernels import kernel
-from fiveroute.plan import Plan
 
 __all__ = [
     "NEXT",
@@ -30,10 +30,11 @@ __all__ = [
     "ROUTE",
     "Chains",
     "build_chains",
+    "duration",
     "measure",
     "put_in",
     "take_out",
-    "to_plan",
+    "trails_of",
     "undo",
 ]
 
@@ -62,8 +63,8 @@ class Chains(NamedTuple):
     log: Ints
 
 
-def build_chains(network: Network, plan: Plan) -> Chains:
-    """Chains that follow a plan; nodes that are not in the network are left out."""
+def build_chains(network: Network, trails: Sequence[Trail]) -> Chains:
+    """Chains that follow a trail for every AUV."""
     size, fleet_size = len(network.nodes), len(network.limit)
     starts = size + np.arange(fleet_size)
     stops = np.full((len(network.leg), 4), -1)
@@ -79,29 +80,28 @@ def build_chains(network: Network, plan: Plan) -> Chains:
         np.zeros((4 * size + 2, 2), np.int64),
     )
     chains.idle[0] = size
-    stop_of = {int(vertex): stop for stop, vertex in enumerate(network.nodes)}
-    for start, route in zip(starts, plan.routes, strict=True):
+    for start, trail in zip(starts, trails, strict=True):
         last = int(start)
-        for vertex in route:
-            if vertex in stop_of:
-                put_in(network.leg, *chains, stop_of[vertex], last)
-                last = stop_of[vertex]
+        for node in trail:
+            put_in(network.leg, *chains, node, last)
+            last = node
     chains.log[0, 0] = 0
     return chains
 
 
-def to_plan(network: Network, behind: Ints) -> Plan:
-    """The plan in which behind[stop] is the stop behind every stop."""
+def trails_of(network: Network, behind: Ints) -> list[Trail]:
+    """The trail of every AUV, where behind[stop] is the stop behind every stop."""
     size, fleet_size = len(network.nodes), len(network.limit)
-    routes: list[list[int]] = []
+    following = behind.tolist()
+    trails: list[Trail] = []
     for start in range(size, size + fleet_size):
-        route: list[int] = []
-        stop = int(behind[start])
+        trail: list[int] = []
+        stop = following[start]
         while stop < size:
-            route.append(int(network.nodes[stop]))
-            stop = int(behind[stop])
-        routes.append(route)
-    return Plan.of(routes)
+            trail.append(stop)
+            stop = following[stop]
+        trails.append(tuple(trail))
+    return trails
 
 
 @kernel
@@ -151,6 +151,15 @@ def measure(leg: Floats, stops: Ints, time: Floats) -> None:
             total += leg[stop, behind]
             stop = behind
         time[auv] = total
+
+
+@kernel
+def duration(leg: Floats, start: int, end: int, trail: Ints) -> float:
+    """Duration of a route."""
+    time: float = leg[start, trail[0]] if len(trail) else leg[start, end]
+    for step in range(len(trail)):
+        time += leg[trail[step], trail[step + 1] if step + 1 < len(trail) else end]
+    return time
 
 
 @kernel

@@ -22,10 +22,13 @@ from numpy.typing import NDArray
 
 from fiveroute.problem import TeamOrienteering
 
-__all__ = ["Floats", "Ints", "Network", "build_network"]
+__all__ = ["Floats", "Ints", "Network", "Trail", "build_network"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+
+Trail = tuple[int, ...]
+"""A route by the numbers of its nodes in the network."""
 
 _ROUNDING = 1e-12
 """Share of a budget by which kernels stay below it: legs add up in another order than in

@@ -5,7 +5,8 @@ can go another way (J. Christiaens and G. Vanden Berghe, "Slack induction by str
 removals for vehicle routing problems", Transportation Science 54(2), 2020, doi
 10.1287/trsc.2019.0914, section 5.1). Around a random seed node, routes are met in order
 of distance, and each of them loses one string with the node that is met. Half of the time
-the string keeps a few of its inner nodes ("split string").
+the string keeps a few of its inner nodes ("split string"). Now and then one long string
+goes instead, up to a whole route: an AUV is sent to another region by no smaller change.
 """
 
 from __future__ import annotations
@@ -25,6 +26,9 @@ LONGEST_STRING = 10
 MEAN_REMOVED = 10.0
 """Mean number of nodes removed, as published."""
 
+LONG = 0.03
+"""Probability of one long string instead."""
+
 
 @kernel
 def remove_strings(
@@ -41,6 +45,14 @@ def remove_strings(
     fleet_size = len(time)
     size = len(stops) - 2 * fleet_size
     mean_length = (size - idle[0]) / fleet_size
+    if uniform(state) < LONG:
+        node = seed
+        if stops[node, ROUTE] < 0:
+            node = stops[size + below(state, fleet_size), NEXT]
+        _remove_string(
+            leg, stops, time, idle, log, node, 1 + below(state, 2.0 * mean_length), state
+        )
+        return
     longest = max(1.0, min(float(LONGEST_STRING), mean_length))
     strings = 1 + below(state, 4.0 * MEAN_REMOVED / (1.0 + longest) - 1.0)
     hit = np.zeros(fleet_size, np.bool_)

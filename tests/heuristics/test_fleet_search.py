@@ -73,6 +73,27 @@ def test_same_seed_same_plan() -> None:
     assert first == second
 
 
+@pytest.mark.parametrize("workers", [1, 2, 3, 8])
+def test_the_number_of_workers_does_not_change_the_plan(workers: int) -> None:
+    """Long enough to recombine; one worker does without threads."""
+    problem = big_problem()
+    plans = [
+        fleet_search(problem, rng=np.random.default_rng(3), iterations=30_000, workers=number)
+        for number in (1, workers)
+    ]
+    assert plans[0] == plans[1]
+
+
+def test_enough_is_enough() -> None:
+    """A plan that reaches what is enough ends the search before its time."""
+    problem = big_problem()
+    enough = 0.5 * fleet_search(problem, rng=np.random.default_rng(1), iterations=5_000).objective(
+        problem
+    )
+    plan = fleet_search(problem, Limits(time=1000.0), rng=np.random.default_rng(1), enough=enough)
+    assert plan.objective(problem) >= enough
+
+
 def test_the_problem_is_left_as_it_was() -> None:
     problem = big_problem()
     before = problem.travel.copy(), problem.profit.copy(), problem.budgets.copy()
