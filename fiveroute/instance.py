@@ -75,6 +75,9 @@ class Node:
         Amount of data rho_j.
     service_time
         Time t_j in seconds to collect it; None leaves it to `Service`.
+    depth
+        Where an AUV collects it, in metres, positive down; None leaves it to `Fleet.depth`.
+        Plans do not depend on it, files for vehicles do.
     """
 
     id: Annotated[str, Field(min_length=1)]
@@ -82,6 +85,7 @@ class Node:
     y: float
     data: NonNegativeFloat
     service_time: NonNegativeFloat | None = None
+    depth: NonNegativeFloat | None = None
 
 
 def _endurance_kind(value: object) -> str:
@@ -109,12 +113,18 @@ class Fleet:
         T_max in seconds, one number for all AUVs or one for each; None is unlimited.
     turning_radius
         Least radius of a turn in metres.
+    depth
+        Where the AUVs cruise, in metres, positive down; None leaves it open.
+    depth_rating
+        How deep they may dive, in metres; None leaves it open.
     """
 
     size: Annotated[int, Field(ge=1, le=MAX_FLEET)] | None
     speed: PositiveFloat
     endurance: _Endurance | None
     turning_radius: NonNegativeFloat = TURNING_RADIUS
+    depth: NonNegativeFloat | None = None
+    depth_rating: PositiveFloat | None = None
 
 
 @dataclass(frozen=True, slots=True, config=_STRICT)

@@ -14,13 +14,19 @@ def require_plain(instance: Instance, format_name: str) -> None:
     Raises
     ------
     InputError
-        If the instance has service times, an ocean, uncertainty or another speed than 1.
+        If the instance has service times, an ocean, uncertainty, depths or another speed than 1.
     """
     for field, what, held in (
         ("service", "service times", instance.service_times.any()),
         ("ocean", "currents, obstacles and land", instance.has_ocean),
         ("uncertainty", "uncertainty", instance.uncertainty != Uncertainty()),
         ("fleet.speed", "speed other than 1", instance.fleet.speed != 1.0),
+        ("nodes", "depths", any(node.depth is not None for node in instance.nodes)),
+        (
+            "fleet",
+            "depths",
+            instance.fleet.depth is not None or instance.fleet.depth_rating is not None,
+        ),
     ):
         if held:
             raise InputError(

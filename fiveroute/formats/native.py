@@ -2,8 +2,9 @@
 
 It holds everything an `Instance` knows, one node a line, and loses no bit of a number.
 Some keys are left out where they say nothing out of the ordinary: ``metric`` (how coordinates
-become distances), ``travel_times``, the fleet's ``turning_radius``, the ocean's ``margin``, and
-the ``depth`` and ``begin`` of its currents.
+become distances), ``travel_times``, the ``depth`` of a node, the fleet's ``turning_radius``,
+``depth`` and ``depth_rating``, the ocean's ``margin``, and the ``depth`` and ``begin`` of its
+currents.
 """
 
 from __future__ import annotations
@@ -66,8 +67,8 @@ def instance_document(instance: Instance) -> dict[str, Any]:
     """The document as plain dictionaries and lists, keys in their order in the file."""
     document = {"format": TAG, **asdict(instance)}
     for node in document["nodes"]:
-        if node["service_time"] is None:
-            del node["service_time"]
+        _drop_unstated(node, "service_time", "depth")
+    _drop_unstated(document["fleet"], "depth", "depth_rating")
     if instance.metric == "euclidean":
         del document["metric"]
     if instance.travel_times is None:
@@ -80,6 +81,12 @@ def instance_document(instance: Instance) -> dict[str, Any]:
         if not document["ocean"]["currents"][key]:
             del document["ocean"]["currents"][key]
     return document
+
+
+def _drop_unstated(part: dict[str, Any], *keys: str) -> None:
+    for key in keys:
+        if part[key] is None:
+            del part[key]
 
 
 def instance_hash(instance: Instance) -> str:
