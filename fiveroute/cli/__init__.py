@@ -22,7 +22,8 @@ COMMANDS = {
     "decide": "Fleet size, departure, speed, reserve: a table and a picture each.",
     "verify": "Judge a plan: every violation, with its AUV, node and amount.",
     "generate": "Make scenarios: the paper's distribution and other layouts.",
-    "convert": "Translate an instance from one file format to another.",
+    "convert": "Translate an instance, or a chart of nodes, from one file format to another.",
+    "export": "Write a plan for vehicles and map programs: QGroundControl, Neptus, MOOS, KML, ...",
     "experiment": "Repeat the paper's experiments: tables, pictures, figures side by side.",
 }
 

@@ -43,6 +43,42 @@ class _Seconds(click.ParamType[float]):
 
 SECONDS = _Seconds()
 
+
+class _Metres(click.ParamType[float]):
+    name = "metres"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
+        try:
+            metres = float(value)
+        except ValueError:
+            metres = math.nan
+        if not 0.0 <= metres < math.inf:
+            self.fail(f"{value!r} is not a number of metres, 0 or more", param, ctx)
+        return metres
+
+
+METRES = _Metres()
+
+
+class _Position(click.ParamType[tuple[float, float]]):
+    name = "position"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, float]:
+        try:
+            first, second = map(float, str(value).split(","))
+        except ValueError:
+            first = second = math.nan
+        if not (math.isfinite(first) and math.isfinite(second)):
+            self.fail(f"{value!r} is not two numbers with a comma between them", param, ctx)
+        return first, second
+
+
+POSITION = _Position()
+
 instance = click.argument("instance", type=click.Path(path_type=Path))
 
 fleet_size = click.option(
