@@ -12,7 +12,7 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
 
@@ -100,7 +100,7 @@ def mission_of(filed: PlanFile, folder: Path, choices: Choices) -> Mission:
     names = _names(len(filed.routes), choices.names)
     filed.require_currents(folder)
     current = stated_current(instance, folder)
-    tracks = _safe_tracks(filed, current, choices.tolerance)
+    tracks = _safe_tracks(filed, folder, current, choices.tolerance)
     vehicles = tuple(
         Vehicle(name, tuple(_waypoints(filed, auv, tracks[auv], current, plane, depth)))
         for auv, name in enumerate(names)
@@ -120,11 +120,15 @@ def mission_of(filed: PlanFile, folder: Path, choices: Choices) -> Mission:
     )
 
 
-def _safe_tracks(filed: PlanFile, current: Current, tolerance: float) -> list[list[Floats]]:
+def _safe_tracks(
+    filed: PlanFile, folder: Path, current: Current, tolerance: float
+) -> list[list[Floats]]:
     """The paths of all legs, thinned out where that is safe."""
-    tracks = filed.tracks or _straight(filed)
+    sailed = filed if filed.paths is not None else replace(filed, paths=_straight(filed))
+    tracks = sailed.tracks
+    assert tracks is not None
     require_passable(filed, tracks, current)
-    require_feasible(filed, tracks, current)
+    require_feasible(sailed, folder)
     thin = [[simplified(path, tolerance) for path in paths] for paths in tracks]
     destination = len(filed.instance.nodes) + 1
     for fault in check_paths(filed.instance, filed.plan, thin, current):
@@ -136,12 +140,16 @@ def _safe_tracks(filed: PlanFile, current: Current, tolerance: float) -> list[li
     return thin
 
 
-def _straight(filed: PlanFile) -> list[list[Floats]]:
-    points, destination = filed.instance.points, len(filed.instance.nodes) + 1
-    return [
-        [points[[tail, head]] for tail, head in itertools.pairwise((0, *route, destination))]
+def _straight(filed: PlanFile) -> tuple[tuple[tuple[tuple[float, float], ...], ...], ...]:
+    """The straight legs of a plan without paths."""
+    places = [(x, y) for x, y in filed.instance.points.tolist()]
+    return tuple(
+        tuple(
+            (places[tail], places[head])
+            for tail, head in itertools.pairwise((0, *route, len(places) - 1))
+        )
         for route in filed.plan.routes
-    ]
+    )
 
 
 def _waypoints(

@@ -8,47 +8,46 @@ cross land or an obstacle, or that dives below the depth rating, does not leave 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.check import Violation, check
-from fiveroute.check_paths import check_paths, times_of_paths
+from fiveroute.check import Violation
+from fiveroute.check_paths import check_paths
 from fiveroute.errors import InputError
 from fiveroute.formats.plan_file import PlanFile
 from fiveroute.ocean.currents import Current
 from fiveroute.vehicle_files.mission import Waypoint
+from fiveroute.verdict import judge
 
 __all__ = ["require_depths", "require_feasible", "require_passable"]
 
 Tracks = Sequence[Sequence[NDArray[np.float64]]]
 
 _REASONS = {
-    "fleet_size": "the plan has {amount:+.0f} routes too many (or too few) for its fleet",
+    "fleet_size": "its routes are {amount:+.0f} more or less than the AUVs of its fleet",
     "visited_twice": "{auv} visits node {node} again",
     "over_budget": "{auv} exceeds its endurance by {amount:.1f} s",
     "path": "the path of {auv} to {node} misses its ends, or legs are missing ({amount:g})",
     "collision": "the path of {auv} to {node} leads {amount:.1f} m through land or an obstacle",
     "impassable": "the current is too strong for {auv} on its path to {node}",
+    "objective": "it claims {amount:+g} data more than it collects",
+    "duration": "the route of {auv} claims {amount:+.1f} s more than it takes",
 }
 
 
-def require_feasible(filed: PlanFile, tracks: Tracks, current: Current) -> None:
+def require_feasible(filed: PlanFile, folder: Path) -> None:
     """Refuse a plan that the judge calls infeasible.
 
     Parameters
     ----------
     filed
         The plan; it must know no other nodes than its instance.
-    tracks
-        The paths of its legs in metres.
-    current
-        The current of its instance.
+    folder
+        Folder that the name of the instance's file of currents is relative to.
     """
-    instance, plan = filed.instance, filed.plan
-    travel = times_of_paths(instance, plan, tracks, current) if instance.has_ocean else None
-    problem = instance.problem(instance.fleet_size or max(len(plan.routes), 1), travel)
-    _refuse(filed, check(problem, plan))
+    _refuse(filed, judge(filed.instance, filed, folder).violations)
 
 
 def require_passable(filed: PlanFile, tracks: Tracks, current: Current) -> None:

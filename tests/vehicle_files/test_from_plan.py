@@ -27,6 +27,7 @@ from fiveroute.instance import (
 from fiveroute.result import Status
 from fiveroute.vehicle_files.from_plan import Choices, mission_of
 from fiveroute.vehicle_files.mission import Mission
+from fiveroute.verdict import judge
 
 ROCK = Circle(500.0, 0.0, 100.0)
 BAY = Instance(
@@ -47,7 +48,7 @@ def filed(instance: Instance = BAY, paths: Any = PATHS, **more: Any) -> PlanFile
     values: dict[str, Any] = {
         "instance": instance,
         "routes": (("a", "b"),),
-        "durations": (1500.0,),
+        "durations": (0.0,) * len(more.get("routes", (0,))),
         "objective": 3.0,
         "status": Status.FEASIBLE,
         "bound": None,
@@ -56,7 +57,10 @@ def filed(instance: Instance = BAY, paths: Any = PATHS, **more: Any) -> PlanFile
         "version": "",
         "paths": paths,
     }
-    return PlanFile(**(values | more))
+    plan = PlanFile(**(values | more))
+    if "durations" in more or plan.paths is None:
+        return plan
+    return replace(plan, durations=judge(plan.instance, plan).durations)
 
 
 def mission(plan: PlanFile, **choices: Any) -> Mission:
@@ -100,7 +104,7 @@ def test_positions_are_those_of_the_plane() -> None:
 
 def test_a_plan_without_paths_sails_straight() -> None:
     still = replace(BAY, ocean=Ocean())
-    points = mission(filed(still, None)).vehicles[0].waypoints
+    points = mission(filed(still, None, durations=(1435.0,))).vehicles[0].waypoints
     assert [p.kind for p in points] == ["start", "node", "node", "destination"]
 
 
@@ -123,7 +127,9 @@ def test_unsafe_plans_are_refused() -> None:
     refused(filed(routes=(("a", "b"), ()), durations=(1.0, 1.0), paths=None), "unsafe")
     strong = Ocean(currents=Currents(uniform=Uniform(0.0, 3.0)))
     refused(filed(replace(BAY, ocean=strong)), "current is too strong")
-    refused(filed(paths=(PATHS[0][:2],)), "legs are missing")
+    refused(filed(paths=(PATHS[0][:2],), durations=(1.0,)), "legs are missing")
+    refused(filed(durations=(1000.0,)), "AUV 1", "more than it takes")
+    refused(filed(objective=4.0), "+1 data more")
 
 
 def test_depths_beyond_the_rating_are_refused() -> None:
@@ -149,7 +155,6 @@ def test_vehicles_are_chosen_and_named() -> None:
         replace(BAY, fleet=replace(BAY.fleet, size=2)),
         (*PATHS, (((0.0, 0.0), (0.0, 800.0)),)),
         routes=(("a", "b"), ()),
-        durations=(1.0, 1.0),
     )
     assert [v.name for v in mission(two).vehicles] == ["auv-1", "auv-2"]
     only = mission(two, auv=2, names=("north", "south.1"))

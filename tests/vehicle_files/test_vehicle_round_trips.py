@@ -12,6 +12,7 @@ import itertools
 import json
 import re
 import warnings
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -24,14 +25,13 @@ import shapely.geometry
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from fiveroute.check import check
 from fiveroute.formats.plan_file import PlanFile
 from fiveroute.instance import Circle, Fleet, Instance, Node, Ocean, Point
-from fiveroute.plan import Plan
 from fiveroute.result import Status
 from fiveroute.vehicle_files import VEHICLE_FORMATS, Choices
 from fiveroute.vehicle_files.from_plan import mission_of
 from fiveroute.vehicle_files.mission import Mission, Vehicle, Waypoint
+from fiveroute.verdict import judge
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")
@@ -96,7 +96,7 @@ def missions(draw: st.DrawFn) -> Mission:
         instance=instance,
         routes=tuple(tuple(nodes[k - 1].id for k in route) for route in routes),
         durations=(0.0, 0.0),
-        objective=0.0,
+        objective=float(len(nodes)),
         status=Status.FEASIBLE,
         bound=None,
         method="by hand",
@@ -104,8 +104,8 @@ def missions(draw: st.DrawFn) -> Mission:
         version="",
         paths=paths,
     )
-    assert not check(instance.problem(2), Plan.of(routes))
-    return mission_of(filed, Path(), Choices(depth=None))
+    filed = replace(filed, durations=judge(instance, filed).durations)
+    return mission_of(filed, Path(), Choices())
 
 
 Seen = list[tuple[float, float, float]]
