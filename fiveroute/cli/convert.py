@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from fiveroute.cli import options
 
+if TYPE_CHECKING:
+    from fiveroute.instance import Instance
+
 __all__ = ["command"]
+
+_INSTANCES = ("native", "chao", "tsplib", "oplib")
+_CHARTS = ("csv", "geojson", "kml", "gpx")
 
 
 @click.command("convert")
@@ -16,23 +23,97 @@ __all__ = ["command"]
 @click.option(
     "--from",
     "source_format",
-    type=click.Choice(["native", "chao", "tsplib", "oplib"]),
+    type=click.Choice([*_INSTANCES, *_CHARTS]),
     help="Format of FILE; without it content and suffix tell.",
 )
 @click.option(
     "--to",
     "target_format",
-    type=click.Choice(["native", "chao", "tsplib", "oplib"]),
+    type=click.Choice(_INSTANCES),
     required=True,
     help="Format to write.",
 )
 @options.output("File to write.", required=True)
+@click.option(
+    "--start",
+    type=options.POSITION,
+    metavar="LON,LAT",
+    help="Where the AUVs are released, or X,Y in metres as in FILE; else its point 'start'.",
+)
+@click.option(
+    "--destination",
+    type=options.POSITION,
+    metavar="LON,LAT",
+    help="Where they are recovered; else the point 'destination'.",
+)
+@click.option(
+    "--fleet-size",
+    type=click.IntRange(min=1),
+    metavar="M",
+    help="Number of AUVs; without it the planner estimates one.",
+)
+@click.option("--speed", type=options.POSITIVE, metavar="V", help="Metres per second.")
+@click.option(
+    "--endurance", type=options.POSITIVE, metavar="S", help="Seconds that an AUV can be out."
+)
+@click.option("--depth", type=options.METRES, metavar="D", help="Cruising depth in metres.")
+@click.option("--depth-rating", type=options.POSITIVE, metavar="D", help="Deepest dive in metres.")
+@click.option(
+    "--zones",
+    type=click.Path(path_type=Path),
+    metavar="CHART",
+    help="Land and obstacles: the polygons of a GeoJSON or KML file.",
+)
+@click.option(
+    "--currents",
+    type=click.Path(path_type=Path),
+    metavar="NETCDF",
+    help="File of currents of an ocean model.",
+)
 @options.force
 def command(
-    file: Path, source_format: str | None, target_format: str, output: Path, force: bool
+    file: Path,
+    source_format: str | None,
+    target_format: str,
+    output: Path,
+    zones: Path | None,
+    force: bool,
+    **terms: Any,
 ) -> None:
-    """Translate the instance FILE; what the target format cannot hold is refused."""
-    from fiveroute.formats import read_instance, write_instance
+    """Translate the instance FILE, or make one of a chart of nodes.
 
-    mission = read_instance(file, source_format)
-    write_instance(mission, output, target_format, force, source=file)
+    What the target format cannot hold is refused. A chart (csv, geojson, kml or gpx) knows no
+    fleet: the options from --start to --currents say the rest.
+    """
+    from fiveroute.formats import read_instance, survey_format, write_instance
+    from fiveroute.formats.files import read_text
+
+    chart = survey_format(file, read_text(file)) if source_format is None else source_format
+    if chart in _CHARTS:
+        # a name of currents is relative to the folder of the call, whatever that of the chart
+        mission, source = _charted(file, chart, zones, terms), Path("chart")
+    else:
+        stated = [name for name, value in {**terms, "zones": zones}.items() if value is not None]
+        if stated:
+            raise click.UsageError(
+                f"--{stated[0].replace('_', '-')} is for charts of nodes; FILE says it itself"
+            )
+        mission, source = read_instance(file, source_format), file
+    write_instance(mission, output, target_format, force, source=source)
+
+
+def _charted(file: Path, chart: str | None, zones: Path | None, terms: dict[str, Any]) -> Instance:
+    """The mission that a chart of nodes becomes."""
+    from fiveroute.errors import InputError
+    from fiveroute.formats import Terms, read_survey
+
+    currents: Path | None = terms.pop("currents")
+    if currents is not None and not currents.is_file():
+        raise InputError("does not exist; check the name", file=currents, field="--currents")
+    survey = read_survey(file, chart)
+    closed = None if zones is None else read_survey(zones)
+    whole = Terms(**terms, currents=None if currents is None else str(currents))
+    try:
+        return survey.instance(file.stem, whole, closed)
+    except InputError as error:
+        raise error.at(file) from None

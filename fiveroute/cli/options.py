@@ -62,6 +62,24 @@ class _Metres(click.ParamType[float]):
 METRES = _Metres()
 
 
+class _Positive(click.ParamType[float]):
+    name = "positive"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
+        try:
+            number = float(value)
+        except ValueError:
+            number = math.nan
+        if not 0.0 < number < math.inf:
+            self.fail(f"{value!r} is not a finite number above 0", param, ctx)
+        return number
+
+
+POSITIVE = _Positive()
+
+
 class _Position(click.ParamType[tuple[float, float]]):
     name = "position"
 

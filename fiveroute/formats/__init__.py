@@ -2,7 +2,8 @@
 
 A format is a pair of pure functions between text and `Instance`. What a format cannot hold
 is refused when it is written, and what it leaves unsaid when it is read is stated in its
-module.
+module. Charts of nodes, which know no fleet, are read as a `Survey` and become an instance with
+the `Terms` of a mission.
 """
 
 from __future__ import annotations
@@ -13,22 +14,38 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fiveroute.errors import InputError
-from fiveroute.formats import chao, native, oplib, tsplib
+from fiveroute.formats import (
+    chao,
+    csv_nodes,
+    geojson_nodes,
+    gpx_nodes,
+    kml_nodes,
+    native,
+    oplib,
+    tsplib,
+)
 from fiveroute.formats.files import read_text, require_writable, write_text_atomically
 from fiveroute.formats.json_document import nearest
 from fiveroute.formats.native import currents_file, instance_hash, relocated
 from fiveroute.formats.plan_file import PlanFile, read_plan, write_plan
+from fiveroute.formats.survey import Survey, Terms
 from fiveroute.instance import Instance
 
 __all__ = [
     "FORMATS",
+    "SURVEY_FORMATS",
     "Format",
     "PlanFile",
+    "Survey",
+    "SurveyFormat",
+    "Terms",
     "currents_file",
     "instance_hash",
     "read_instance",
     "read_plan",
+    "read_survey",
     "require_writable",
+    "survey_format",
     "write_instance",
     "write_plan",
     "write_text_atomically",
@@ -75,6 +92,36 @@ FORMATS = {
 }
 """All formats by name, in the order in which their signatures are tried."""
 
+
+@dataclass(frozen=True, slots=True)
+class SurveyFormat:
+    """How a chart of nodes is read.
+
+    Parameters
+    ----------
+    suffixes
+        Endings of file names that suggest it.
+    signature
+        Is found in the first `_HEAD` characters of such a file; None where only the suffix tells.
+    read
+        ``read(text)``.
+    """
+
+    suffixes: tuple[str, ...]
+    signature: re.Pattern[str] | None
+    read: Callable[[str], Survey]
+
+
+SURVEY_FORMATS = {
+    "csv": SurveyFormat((".csv", ".tsv"), None, csv_nodes.read),
+    "geojson": SurveyFormat(
+        (".geojson",), re.compile(r'"type"\s*:\s*"Feature(Collection)?"'), geojson_nodes.read
+    ),
+    "kml": SurveyFormat((".kml",), re.compile(r"<(\w+:)?kml[\s>]"), kml_nodes.read),
+    "gpx": SurveyFormat((".gpx",), re.compile(r"<(\w+:)?gpx[\s>]"), gpx_nodes.read),
+}
+"""All formats of charts by name."""
+
 _HEAD = 4096
 
 
@@ -96,6 +143,11 @@ def read_instance(path: Path, format_name: str | None = None) -> Instance:
     """
     text = read_text(path)
     try:
+        if format_name is None and (chart := survey_format(path, text)) is not None:
+            raise InputError(
+                f"is a chart of nodes ({chart}) without a fleet; turn it into a mission with "
+                "fiveroute convert"
+            )
         chosen = (
             _detected(text, path.suffix.lower()) if format_name is None else _named(format_name)
         )
@@ -139,6 +191,52 @@ def write_instance(
         chosen = _named(format_name)
     moved = instance if source is None else relocated(instance, source, path)
     write_text_atomically(path, chosen.write(moved), force)
+
+
+def survey_format(path: Path, text: str) -> str | None:
+    """Name of the format of a chart of nodes; None for any other file.
+
+    Parameters
+    ----------
+    path
+        The file, for its suffix.
+    text
+        Its content.
+    """
+    head, suffix = text[:_HEAD], path.suffix.lower()
+    for name, known in SURVEY_FORMATS.items():
+        if known.signature is None and suffix in known.suffixes:
+            return name
+        if known.signature is not None and known.signature.search(head):
+            return name
+    return None
+
+
+def read_survey(path: Path, format_name: str | None = None) -> Survey:
+    """Read a chart of nodes and zones.
+
+    Parameters
+    ----------
+    path
+        The file.
+    format_name
+        Name of its format; None finds out, first from the content, then from the suffix.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or is no valid chart; it says where.
+    """
+    text = read_text(path)
+    name = format_name or survey_format(path, text)
+    try:
+        if name not in SURVEY_FORMATS:
+            raise InputError(
+                f"is no chart of nodes; known are {', '.join(SURVEY_FORMATS)}", value=format_name
+            )
+        return SURVEY_FORMATS[name].read(text)
+    except InputError as error:
+        raise error.at(path) from None
 
 
 def _named(name: str) -> Format:
