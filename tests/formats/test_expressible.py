@@ -34,6 +34,9 @@ PLAIN = Instance("plain", (Node("2", 1.0, 0.0, 1.0),), Point(0, 0), Point(0, 0),
         ({"ocean": Ocean(Currents(uniform=Uniform(0.1, 0.0)))}, "ocean: Chao files know no curr"),
         ({"uncertainty": Uncertainty(drift=0.2)}, "uncertainty: Chao files know no uncertainty"),
         ({"fleet": Fleet(1, 2.0, 9.0)}, "fleet.speed: Chao files know no speed other than 1"),
+        ({"nodes": (Node("2", 1.0, 0.0, 1.0, depth=5.0),)}, "nodes: Chao files know no depths"),
+        ({"fleet": Fleet(1, 1.0, 9.0, depth=0.0)}, "fleet: Chao files know no depths"),
+        ({"fleet": Fleet(1, 1.0, 9.0, depth_rating=5.0)}, "fleet: Chao files know no depths"),
     ],
 )
 def test_more_than_benchmarks_know_is_refused(changes: dict[str, Any], words: str) -> None:

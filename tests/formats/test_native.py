@@ -213,6 +213,18 @@ def with_currents(file: str | None) -> Instance:
     return replace(read(), ocean=Ocean(Currents(file=file)))
 
 
+def test_depths_are_written_where_they_are_stated() -> None:
+    plain = json.loads(native.write(read()))
+    assert plain["nodes"][0].keys() == {"id", "x", "y", "data"}
+    assert plain["fleet"].keys() == {"size", "speed", "endurance"}
+    deep = read(nodes=[node(depth=12.5)], fleet=fleet(depth=0, depth_rating=90))
+    document = json.loads(native.write(deep))
+    assert document["nodes"][0]["depth"] == 12.5
+    assert (document["fleet"]["depth"], document["fleet"]["depth_rating"]) == (0.0, 90.0)
+    assert native.read(native.write(deep), "") == deep
+    assert instance_hash(deep) != instance_hash(read())
+
+
 def test_currents_file_is_relative_to_the_instance(tmp_path: Path) -> None:
     path = tmp_path / "instance.json"
     assert currents_file(with_currents("sea/a.nc"), path) == tmp_path / "sea" / "a.nc"

@@ -1,0 +1,167 @@
+"""From a chart of nodes to a mission: what a chart says, what it does not, and where it lies."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pyproj
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fiveroute.errors import InputError
+from fiveroute.formats import native
+from fiveroute.formats.survey import Area, Site, Survey, Terms, area_kind, fields_of
+from fiveroute.instance import Circle, Polygon
+
+TERMS = Terms(start=(10.0, 63.0), destination=(10.1, 63.0), speed=1.5, endurance=3600.0)
+CHART = Survey(
+    True,
+    (Site("a", (10.0, 63.05), 2.0, 60.0, 30.0), Site("", (10.05, 63.02))),
+    (
+        Area("land", ((10.2, 63.0), (10.3, 63.0), (10.3, 63.1))),
+        Area("obstacle", ((10.02, 63.0),), 250.0),
+    ),
+)
+
+
+def test_a_chart_becomes_a_mission() -> None:
+    mission = CHART.instance("bay", replace(TERMS, fleet_size=3, depth=5.0, depth_rating=90.0))
+    first, second = mission.nodes
+    assert (first.id, first.data, first.service_time, first.depth) == ("a", 2.0, 60.0, 30.0)
+    assert (second.id, second.data, second.service_time, second.depth) == ("2", 1.0, None, None)
+    fleet = mission.fleet
+    assert (fleet.size, fleet.speed, fleet.endurance, fleet.depth) == (3, 1.5, 3600.0, 5.0)
+    assert fleet.depth_rating == 90.0
+    circle, (land,) = mission.ocean.obstacles[0], mission.ocean.land
+    assert isinstance(circle, Circle)
+    assert circle.radius == 250.0
+    assert isinstance(land, Polygon)
+    assert native.read(native.write(mission), "") == mission
+
+
+@settings(deadline=None, max_examples=30)
+@given(
+    st.floats(-180.0, 180.0),
+    st.floats(-80.0, 80.0),
+    st.lists(st.tuples(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5)), min_size=1, max_size=6),
+)
+def test_distances_are_those_on_earth(
+    lon: float, lat: float, offsets: list[tuple[float, float]]
+) -> None:
+    """On either side of the 180th meridian too."""
+    spots = [((lon + east + 180.0) % 360.0 - 180.0, lat + north) for east, north in offsets]
+    chart = Survey(True, tuple(Site("", spot) for spot in spots))
+    mission = chart.instance("x", replace(TERMS, start=(lon, lat), destination=(lon, lat)))
+    points = mission.points
+    for k, spot in enumerate(spots, start=1):
+        *_, metres = pyproj.Geod(ellps="WGS84").inv(lon, lat, *spot)
+        assert np.hypot(*(points[k] - points[0])) == pytest.approx(metres, rel=1e-3, abs=0.01)
+    assert mission.origin is not None
+
+
+def test_points_of_these_names_are_the_ends() -> None:
+    chart = Survey(
+        True,
+        (
+            Site("Start", (10.0, 63.0), end="start"),
+            Site("a", (10.0, 63.1)),
+            Site("destination", (10.2, 63.0), end="destination"),
+        ),
+    )
+    terms = replace(TERMS, start=None, destination=None)
+    mission = chart.instance("x", terms)
+    assert [node.id for node in mission.nodes] == ["a"]
+    assert mission.start.x < mission.destination.x
+    moved = chart.instance("x", replace(terms, start=(10.2, 63.0)))
+    assert moved.start == moved.destination
+
+
+@pytest.mark.parametrize(
+    ("missing", "words"),
+    [
+        ("start", ("--start", "LON,LAT", "released")),
+        ("destination", ("--destination", "recovered")),
+        ("speed", ("--speed", "m/s")),
+        ("endurance", ("--endurance", "seconds")),
+    ],
+)
+def test_what_is_missing_is_asked_for(missing: str, words: tuple[str, ...]) -> None:
+    terms: Any = {missing: None}
+    with pytest.raises(InputError) as error:
+        CHART.instance("x", replace(TERMS, **terms))
+    assert all(word in str(error.value) for word in words)
+
+
+def test_local_metres_stay_as_they_are() -> None:
+    chart = Survey(False, (Site("a", (100.0, 200.0)),))
+    mission = chart.instance("x", replace(TERMS, start=(0.0, 0.0), destination=(1e6, 0.0)))
+    assert mission.crs is None
+    assert mission.points.tolist() == [[0.0, 0.0], [100.0, 200.0], [1e6, 0.0]]
+
+
+def test_zones_of_another_chart_join() -> None:
+    nodes = replace(CHART, areas=())
+    mission = nodes.instance("x", TERMS, zones=CHART)
+    assert len(mission.ocean.obstacles) == len(mission.ocean.land) == 1
+    with pytest.raises(InputError, match="one kind"):
+        replace(nodes, geographic=False).instance("x", TERMS, zones=CHART)
+
+
+@pytest.mark.parametrize("spot", [(63.0, 10.0), (10.0, -63.0), (-170.0, 63.0)])
+def test_points_far_off_are_refused(spot: tuple[float, float]) -> None:
+    with pytest.raises(InputError, match="longitude first"):
+        replace(CHART, sites=(*CHART.sites, Site("far", spot))).instance("x", TERMS)
+
+
+@pytest.mark.parametrize("start", [(400.0, 0.0), (10.0, 91.0)])
+def test_ends_must_be_on_earth(start: tuple[float, float]) -> None:
+    with pytest.raises(InputError, match="--start"):
+        CHART.instance("x", replace(TERMS, start=start))
+
+
+@pytest.mark.parametrize(
+    ("name", "field"),
+    [
+        ("Longitude", "lon"),
+        ("LAT (deg)", "lat"),
+        ("long", "lon"),
+        ("x [m]", "x"),
+        ("Easting", "x"),
+        ("Service Time (s)", "service_time"),
+        ("service_time", "service_time"),
+        ("Depth (m)", "depth"),
+        ("Station ID", "id"),
+        ("RHO", "data"),
+    ],
+)
+def test_names_have_many_spellings(name: str, field: str) -> None:
+    assert fields_of([name, "remark", "colour"]) == {field: name}
+
+
+def test_the_first_of_several_names_is_the_id() -> None:
+    assert fields_of(["station", "name", "id"]) == {"id": "id"}
+    assert fields_of(["Label", "Name"]) == {"id": "Name"}
+
+
+@pytest.mark.parametrize("name", ["dpeth", "depth_km", "depth (km)", "longtitude", "service_min"])
+def test_slips_and_other_units_are_not_overlooked(name: str) -> None:
+    with pytest.raises(InputError, match="did you mean"):
+        fields_of(["id", name])
+
+
+def test_two_names_for_one_number_are_refused() -> None:
+    with pytest.raises(InputError, match="same as"):
+        fields_of(["data", "score"])
+
+
+def test_kinds_of_zones() -> None:
+    assert [area_kind(kind, "") for kind in (None, "Zone", "coastline")] == [
+        "obstacle",
+        "obstacle",
+        "land",
+    ]
+    with pytest.raises(InputError, match="obstacle or land"):
+        area_kind("swamp", "features[0]")
