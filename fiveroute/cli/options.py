@@ -26,44 +26,12 @@ __all__ = [
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
-class _Seconds(click.ParamType[float]):
-    name = "seconds"
+class _Number(click.ParamType[float]):
+    """A number that keeps a rule; no number keeps none."""
 
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> float:
-        try:
-            seconds = float(value)
-        except ValueError:
-            seconds = math.nan
-        if not seconds > 0.0:
-            self.fail(f"{value!r} is not a positive number of seconds", param, ctx)
-        return seconds
-
-
-SECONDS = _Seconds()
-
-
-class _Metres(click.ParamType[float]):
-    name = "metres"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> float:
-        try:
-            metres = float(value)
-        except ValueError:
-            metres = math.nan
-        if not 0.0 <= metres < math.inf:
-            self.fail(f"{value!r} is not a number of metres, 0 or more", param, ctx)
-        return metres
-
-
-METRES = _Metres()
-
-
-class _Positive(click.ParamType[float]):
-    name = "positive"
+    def __init__(self, holds: Callable[[float], bool], rule: str) -> None:
+        self.name = "number"
+        self._holds, self._rule = holds, rule
 
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
@@ -72,12 +40,14 @@ class _Positive(click.ParamType[float]):
             number = float(value)
         except ValueError:
             number = math.nan
-        if not 0.0 < number < math.inf:
-            self.fail(f"{value!r} is not a finite number above 0", param, ctx)
+        if not self._holds(number):
+            self.fail(f"{value!r} is not {self._rule}", param, ctx)
         return number
 
 
-POSITIVE = _Positive()
+SECONDS = _Number(lambda seconds: seconds > 0.0, "a positive number of seconds")
+METRES = _Number(lambda metres: 0.0 <= metres < math.inf, "a number of metres, 0 or more")
+POSITIVE = _Number(lambda number: 0.0 < number < math.inf, "a finite number above 0")
 
 
 class _Position(click.ParamType[tuple[float, float]]):

@@ -12,7 +12,8 @@ import csv
 import io
 
 from fiveroute.errors import InputError
-from fiveroute.formats.survey import Site, Survey, fields_of, parsed_number, site_of
+from fiveroute.formats.chart_fields import fields_of, parsed_number, site_of
+from fiveroute.formats.survey import Site, Survey
 
 __all__ = ["read"]
 

@@ -18,16 +18,8 @@ from collections.abc import Iterator
 from typing import Any
 
 from fiveroute.errors import InputError
-from fiveroute.formats.survey import (
-    Area,
-    Site,
-    Survey,
-    area_kind,
-    fields_of,
-    require_on_earth,
-    ring,
-    site_of,
-)
+from fiveroute.formats.chart_fields import area_kind, fields_of, ring, site_of
+from fiveroute.formats.survey import Area, Site, Survey, require_on_earth
 
 __all__ = ["read"]
 

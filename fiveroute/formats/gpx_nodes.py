@@ -13,8 +13,9 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element
 
 from fiveroute.errors import InputError
+from fiveroute.formats.chart_fields import parsed_number, site_of
 from fiveroute.formats.safe_xml import local_name, named, parse_xml, text_of
-from fiveroute.formats.survey import Site, Survey, parsed_number, site_of
+from fiveroute.formats.survey import Site, Survey
 
 __all__ = ["read"]
 

@@ -15,18 +15,9 @@ from collections.abc import Iterator
 from xml.etree.ElementTree import Element
 
 from fiveroute.errors import InputError
+from fiveroute.formats.chart_fields import area_kind, fields_of, parsed_number, ring, site_of
 from fiveroute.formats.safe_xml import local_name, named, parse_xml, text_of
-from fiveroute.formats.survey import (
-    Area,
-    Site,
-    Survey,
-    area_kind,
-    fields_of,
-    parsed_number,
-    require_on_earth,
-    ring,
-    site_of,
-)
+from fiveroute.formats.survey import Area, Site, Survey, require_on_earth
 
 __all__ = ["read"]
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from fiveroute.errors import InputError
 from fiveroute.formats import native
-from fiveroute.formats.survey import Area, Site, Survey, Terms, area_kind, fields_of
+from fiveroute.formats.survey import Area, Site, Survey, Terms
 from fiveroute.instance import Circle, Polygon
 
 TERMS = Terms(start=(10.0, 63.0), destination=(10.1, 63.0), speed=1.5, endurance=3600.0)
@@ -122,46 +122,10 @@ def test_ends_must_be_on_earth(start: tuple[float, float]) -> None:
         CHART.instance("x", replace(TERMS, start=start))
 
 
-@pytest.mark.parametrize(
-    ("name", "field"),
-    [
-        ("Longitude", "lon"),
-        ("LAT (deg)", "lat"),
-        ("long", "lon"),
-        ("x [m]", "x"),
-        ("Easting", "x"),
-        ("Service Time (s)", "service_time"),
-        ("service_time", "service_time"),
-        ("Depth (m)", "depth"),
-        ("Station ID", "id"),
-        ("RHO", "data"),
-    ],
-)
-def test_names_have_many_spellings(name: str, field: str) -> None:
-    assert fields_of([name, "remark", "colour"]) == {field: name}
-
-
-def test_the_first_of_several_names_is_the_id() -> None:
-    assert fields_of(["station", "name", "id"]) == {"id": "id"}
-    assert fields_of(["Label", "Name"]) == {"id": "Name"}
-
-
-@pytest.mark.parametrize("name", ["dpeth", "depth_km", "depth (km)", "longtitude", "service_min"])
-def test_slips_and_other_units_are_not_overlooked(name: str) -> None:
-    with pytest.raises(InputError, match="did you mean"):
-        fields_of(["id", name])
-
-
-def test_two_names_for_one_number_are_refused() -> None:
-    with pytest.raises(InputError, match="same as"):
-        fields_of(["data", "score"])
-
-
-def test_kinds_of_zones() -> None:
-    assert [area_kind(kind, "") for kind in (None, "Zone", "coastline")] == [
-        "obstacle",
-        "obstacle",
-        "land",
-    ]
-    with pytest.raises(InputError, match="obstacle or land"):
-        area_kind("swamp", "features[0]")
+def test_ends_at_several_places_must_be_told_apart() -> None:
+    twice = [Site("start", (10.0, 63.0), end="start"), Site("start", (10.1, 63.0), end="start")]
+    chart = replace(CHART, sites=(*CHART.sites, *twice))
+    with pytest.raises(InputError, match="several places; pass --start"):
+        chart.instance("x", replace(TERMS, start=None))
+    same = replace(CHART, sites=(*CHART.sites, twice[0], twice[0]))
+    assert same.instance("x", replace(TERMS, start=None)) == CHART.instance("x", TERMS)
