@@ -18,12 +18,14 @@ __all__ = ["command"]
 
 PLANNERS = (
     "five-tier",
+    "cbba",
     "no-coordination",
     "ftcmp",
     "rmmp",
     "of-one-mind",
     "own-pick-up",
     "to-the-letter",
+    "re-optimising",
 )
 CHANNELS = ("unlimited", "fsk", "psk", "nanomodem", "bursty")
 

@@ -8,6 +8,7 @@ which time is kept in hand are the same for all of them.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,10 +26,12 @@ from fiveroute.sea.course import Outlook, outlook
 from fiveroute.sea.events import Event
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.alone import Alone, sail_alone
+from fiveroute.sea.planners.cbba import Cbba
 from fiveroute.sea.planners.five_tier import FiveTier
 from fiveroute.sea.planners.ftcmp import Ftcmp
 from fiveroute.sea.planners.of_one_mind import OfOneMind
 from fiveroute.sea.planners.own_pick_up import OwnPickUp
+from fiveroute.sea.planners.re_optimising import ReOptimising
 from fiveroute.sea.planners.rmmp import Rmmp
 from fiveroute.sea.planners.to_the_letter import ToTheLetter
 from fiveroute.sea.theatre import Theatre
@@ -37,17 +40,20 @@ from fiveroute.sea.watch import SILENCE
 
 __all__ = ["PLANNERS", "RunResult", "SimulationResult", "simulate_fleet"]
 
-_KNOWING: dict[str, type[Ftcmp | OfOneMind | OwnPickUp | Rmmp | ToTheLetter]] = {
+_KNOWING: dict[str, Callable[[Voyage, Outlook, Plan], Crew]] = {
     "ftcmp": Ftcmp,
     "rmmp": Rmmp,
     "to-the-letter": ToTheLetter,
     "of-one-mind": OfOneMind,
     "own-pick-up": OwnPickUp,
+    "re-optimising": ReOptimising,
 }
 
-PLANNERS = ("five-tier", "no-coordination", *_KNOWING)
+_TALKING: dict[str, type[FiveTier | Cbba]] = {"five-tier": FiveTier, "cbba": Cbba}
+
+PLANNERS = (*_TALKING, "no-coordination", *_KNOWING)
 """Who can steer: the five-tiered planner with and without its fifth tier, the two that the paper
-compares with, and three to learn from, see their modules."""
+compares with, a peer that agrees without an auction, and four to learn from, see their modules."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -250,7 +256,7 @@ def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool, gap: bool) ->
         clairvoyant=_best(sea.theatre, voyage) if gap else None,
         events=tuple(voyage.log) if log else (),
     )
-    if isinstance(crew, FiveTier):
+    if isinstance(crew, FiveTier | Cbba):
         sent, delivered = crew.radio.sent, crew.radio.delivered
         takeovers = crew.false_takeovers
         return replace(result, sent=sent, delivered=delivered, false_takeovers=takeovers)
@@ -269,8 +275,8 @@ def _best(theatre: Theatre, voyage: Voyage) -> float:
 
 def _crew(sea: _Sea, voyage: Voyage, plan: Plan, planner: str) -> Crew:
     """Whoever steers this run."""
-    if planner == "five-tier":
-        return FiveTier(
+    if planner in _TALKING:
+        return _TALKING[planner](
             voyage,
             sea.view,
             plan,

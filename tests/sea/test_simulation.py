@@ -18,7 +18,9 @@ from fiveroute.sea.theatre import Theatre
 every_planner = pytest.mark.parametrize("planner", sorted(PLANNERS))
 
 
-@pytest.mark.parametrize("planner", sorted({*PLANNERS} - {"rmmp"}))  # which plans anew
+@pytest.mark.parametrize(
+    "planner", sorted({*PLANNERS} - {"rmmp", "re-optimising"})
+)  # which plan anew
 def test_in_a_calm_sea_the_plan_is_what_happens(planner: str, plan: Plan) -> None:
     calm = Theatre.of(generate(nodes=24, seed=3), 2, uncertainty=Uncertainty(floor=1.0))
     result = simulate_fleet(calm, plan, planner=planner, runs=2, reserve=0.0)
