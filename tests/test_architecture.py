@@ -98,6 +98,7 @@ def test_pictures_are_drawn_in_one_room(module: str) -> None:
         assert module in {
             "fiveroute.decide.picture",
             "fiveroute.experiments.pictures",
+            "fiveroute.experiments.sea_pictures",
         }
 
 

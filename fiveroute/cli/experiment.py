@@ -133,3 +133,66 @@ def stochastic(
         answers.print_json(summary(outcome.value))
     else:
         click.echo(report(outcome.value), nl=False)
+
+
+@command.command("coordination")
+@click.option(
+    "--scenarios",
+    type=click.IntRange(min=0),
+    default=5,
+    show_default=True,
+    help="Scenarios of the ablations; 0 for none.",
+)
+@click.option(
+    "--runs", type=click.IntRange(min=1), default=50, show_default=True, help="Oceans a scenario."
+)
+@options.seed
+@options.output("Folder for report and pictures; made if it is missing.")
+@options.force
+@options.json_output
+@click.pass_context
+def coordination(
+    ctx: click.Context,
+    scenarios: int,
+    runs: int,
+    seed: int,
+    output: Path | None,
+    force: bool,
+    as_json: bool,
+) -> None:
+    """Section IV-C in single missions, and what every part of the planner is worth.
+
+    --output gets the pictures: typical missions with three and with four AUVs, with and without
+    coordination; one run hour by hour; an auction. Ablations take about two minutes a scenario.
+    """
+    from fiveroute.cli import answers
+    from fiveroute.cli.files import require_folder
+    from fiveroute.cli.running import run
+    from fiveroute.experiments.ablations import Trial, gathered, sail_variants
+    from fiveroute.experiments.coordination_cases import CASES, Case, sail_case
+    from fiveroute.experiments.coordination_report import FILES, report, summary, write_report
+    from fiveroute.limits import Limits, Progress, ProgressCallback
+
+    require_folder(output, FILES, force)
+
+    def work(limits: Limits, progress: ProgressCallback | None) -> tuple[list[Case], list[Trial]]:
+        clock, trials = limits.start(), list[Trial]()
+        cases = [sail_case(*case, runs, seed) for case in CASES]
+        for trial in sail_variants(scenarios, runs, seed=seed):
+            trials.append(trial)
+            if progress is not None:
+                message = f"scenario {trial.scenario}: {trial.variant.name}"
+                progress(Progress(clock.seconds, message=message))
+            if clock.interrupted:
+                break
+        return cases, trials
+
+    outcome = run(work, Limits())
+    cases, rows = outcome.value[0], gathered(outcome.value[1])
+    if output is not None:
+        write_report(cases, rows, runs, output, force)
+    if as_json:
+        answers.print_json(summary(cases, rows))
+    else:
+        click.echo(report(cases, rows, runs), nl=False)
+    ctx.exit(130 if outcome.interrupted else 0)

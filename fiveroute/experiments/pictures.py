@@ -1,4 +1,4 @@
-"""The plotting room: the only place that knows matplotlib.
+"""The plotting room: with `fiveroute.experiments.sea_pictures` the only place with matplotlib.
 
 Every function draws one figure and returns it; `save` writes it. Colours are those of
 Okabe and Ito (2008), which colour-blind readers can tell apart.
@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
-from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
 from fiveroute.formats.files import written_whole
@@ -25,7 +25,17 @@ from fiveroute.paths.legs import Waters
 from fiveroute.plan import Route
 from fiveroute.tiers.pathing import PlannedPath
 
-__all__ = ["Panel", "completion_boxes", "gap_profile", "path_map", "route_panels", "save"]
+__all__ = [
+    "Panel",
+    "colour_of",
+    "completion_boxes",
+    "draw_map",
+    "gap_profile",
+    "map_legend",
+    "path_map",
+    "route_panels",
+    "save",
+]
 
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 _IDLE = "#999999"
@@ -46,11 +56,22 @@ class Panel:
     open_ends
         Whether the legs to start and destination are left out: a segment of the giant
         route, not a route yet.
+    lost
+        Nodes crossed out: planned, but collected by nobody.
+    gained
+        Nodes ringed: collected by an AUV that was not to visit them.
     """
 
     title: str
     routes: tuple[Route, ...]
     open_ends: bool = False
+    lost: frozenset[int] = frozenset()
+    gained: frozenset[int] = frozenset()
+
+
+def colour_of(auv: int) -> str:
+    """The colour of an AUV, the same in all pictures."""
+    return _COLOURS[auv % len(_COLOURS)]
 
 
 def path_map(waters: Waters, planned: PlannedPath, title: str) -> Figure:
@@ -110,29 +131,46 @@ def route_panels(instance: Instance, panels: Sequence[Panel]) -> Figure:
     """
     figure = Figure(figsize=(4.6 * len(panels), 5.0), layout="constrained")
     axes = figure.subplots(1, len(panels), squeeze=False)[0]
-    points = instance.points / 1000.0
-    data = np.array([node.data for node in instance.nodes])
     for axis, panel in zip(axes, panels, strict=True):
-        _draw_map(axis, points, data, panel)
-    most = max(axes, key=lambda axis: len(axis.get_legend_handles_labels()[0]))
-    figure.legend(*most.get_legend_handles_labels(), loc="outside lower center", ncols=10)
+        draw_map(axis, instance, panel)
+    marks = any(panel.lost or panel.gained for panel in panels)
+    map_legend(figure, max(len(panel.routes) for panel in panels), marks=marks)
     return figure
 
 
-def _draw_map(
-    axis: Axes, points: NDArray[np.float64], data: NDArray[np.float64], panel: Panel
-) -> None:
+def map_legend(figure: Figure, fleet_size: int, *, marks: bool = False) -> None:
+    """Say below a figure whose routes its maps show, and what their marks mean."""
+    handles = [
+        Line2D([], [], color=colour_of(auv), marker="o", markersize=5, label=f"AUV {auv + 1}")
+        for auv in range(fleet_size)
+    ]
+    if marks:
+        for mark, label in (("x", "planned, but lost"), ("o", "picked up")):
+            handle = Line2D([], [], color="black", linestyle="", marker=mark, label=label)
+            handle.set(markersize=7 if mark == "x" else 10, markerfacecolor="none")
+            handles.append(handle)
+    figure.legend(handles=handles, loc="outside lower center", ncols=10, frameon=False)
+
+
+def draw_map(axis: Axes, instance: Instance, panel: Panel) -> None:
+    """Draw one map, distances in kilometres."""
+    points = instance.points / 1000.0
+    data = np.array([node.data for node in instance.nodes])
     area = 12.0 + 60.0 * data / max(float(data.max(initial=0.0)), 1e-12)
     colours = np.full(len(data), _IDLE, dtype=object)
     for auv, route in enumerate(panel.routes):
-        colour = _COLOURS[auv % len(_COLOURS)]
+        colour = colour_of(auv)
         stops = [*route] if panel.open_ends else [0, *route, len(points) - 1]
-        axis.plot(*points[stops].T, color=colour, linewidth=1.3, zorder=1, label=f"AUV {auv + 1}")
+        axis.plot(*points[stops].T, color=colour, linewidth=1.3, zorder=1)
         colours[[node - 1 for node in route]] = colour
     idle = colours == _IDLE
     x, y = points[1:-1].T
     axis.scatter(x[~idle], y[~idle], s=area[~idle], c=list(colours[~idle]), zorder=2)
     axis.scatter(x[idle], y[idle], s=area[idle], facecolors="none", edgecolors=_IDLE, zorder=2)
+    for nodes, mark, size in ((panel.lost, "x", 7.0), (panel.gained, "o", 13.0)):
+        if nodes:
+            (line,) = axis.plot(*points[sorted(nodes)].T, mark, color="black", markersize=size)
+            line.set(markerfacecolor="none", markeredgewidth=1.6, zorder=4)
     axis.plot(*points[0], "^", color="black", markersize=10, zorder=3)
     axis.plot(*points[-1], "*", color="black", markersize=13, zorder=3)
     axis.set(title=panel.title, aspect="equal", xlabel="x, km", ylabel="y, km")

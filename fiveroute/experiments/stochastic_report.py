@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,16 +17,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.experiments.preplanning_report import statistics_of
+from fiveroute.experiments.published import EQUAL_FLEET_ADVANTAGE, FEWER_AUVS, FLEETS, WINS
 from fiveroute.experiments.stochastic import COMPETITORS, FIXED_FLEET, Outcome
 from fiveroute.formats.files import require_writable, write_text_atomically
 
 __all__ = ["FILES", "report", "summary", "write_report"]
 
-FILES = ("report.md", "scenarios.csv", "own-fleet.png", "equal-fleet.png")
+FILES = ("report.md", "scenarios.csv", "own-fleet.png", "equal-fleet.png", "by-scenario.png")
 """What `write_report` writes."""
 
 _RESAMPLES = 10_000
-_PUBLISHED = {"wins": 15, "fewer": 0.075, "equal": 0.062}
 
 Means = Mapping[str, NDArray[np.float64]]
 """By planner: the mean completion on every scenario; ``, M = 4`` for the fixed fleet."""
@@ -56,7 +56,7 @@ def report(outcomes: Sequence[Outcome]) -> str:
     means, scenarios = _means(outcomes), len(_means(outcomes)["five-tier"])
     equal, low, high = _advantage(means, COMPETITORS)
     worth, worth_low, worth_high = _advantage(means, ("no-coordination",))
-    fleet = _mean_fleet(outcomes)
+    fleet, fleets = _mean_fleet(outcomes), _fleets(outcomes)
     fewer = 1.0 - fleet / FIXED_FLEET
     gaps = ", ".join(
         f"{name} {100 * gap:.1f} %" for name, gap in _gaps(outcomes).items() if gap is not None
@@ -69,10 +69,12 @@ def report(outcomes: Sequence[Outcome]) -> str:
         _table(means),
         "## The paper's figures beside ours",
         "| | paper | ours |\n|---|---|---|\n"
-        f"| best of three, M as estimated against 4 and 4 | {_PUBLISHED['wins']} of 20 | "
+        f"| best of three, M as estimated against 4 and 4 | {WINS['five-tier']} of 20 | "
         f"{_wins(means, _fixed())} of {scenarios} |\n"
-        f"| fewer AUVs than 4 | {100 * _PUBLISHED['fewer']:.1f} % | {100 * fewer:.1f} % |\n"
-        f"| more data than the mean of both at equal M | {100 * _PUBLISHED['equal']:.1f} % | "
+        f"| scenarios with 3 and with 4 AUVs | {FLEETS[3]} and {FLEETS[4]} of 20 | "
+        f"{fleets.count(3)} and {fleets.count(4)} of {scenarios} |\n"
+        f"| fewer AUVs than 4 | {100 * FEWER_AUVS:.1f} % | {100 * fewer:.1f} % |\n"
+        f"| more data than the mean of both at equal M | {100 * EQUAL_FLEET_ADVANTAGE:.1f} % | "
         f"{100 * equal:.1f} % ({100 * low:.1f} to {100 * high:.1f}) |\n"
         f"| more data by coordination | 7.6 % in one case | {100 * worth:.1f} % on average "
         f"({100 * worth_low:.1f} to {100 * worth_high:.1f}) |",
@@ -89,6 +91,7 @@ def report(outcomes: Sequence[Outcome]) -> str:
 def write_report(outcomes: Sequence[Outcome], folder: Path, force: bool = False) -> None:
     """Write all of `FILES` into a folder."""
     from fiveroute.experiments.pictures import completion_boxes, save
+    from fiveroute.experiments.sea_pictures import scenario_chart
 
     for name in FILES:
         require_writable(folder / name, force)
@@ -99,6 +102,14 @@ def write_report(outcomes: Sequence[Outcome], folder: Path, force: bool = False)
     ):
         samples = {name: means[name].tolist() for name in names}
         save(completion_boxes(title, samples, {}), folder / file)
+    names, errors = ("five-tier", *_fixed()), _errors(outcomes)
+    chart = scenario_chart(
+        {name: means[name].tolist() for name in names},
+        {name: errors[name].tolist() for name in names},
+        _fleets(outcomes),
+        FIXED_FLEET,
+    )
+    save(chart, folder / "by-scenario.png")
     write_text_atomically(folder / "scenarios.csv", _scenario_table(outcomes), force)
     write_text_atomically(folder / "report.md", report(outcomes), force)
 
@@ -113,10 +124,30 @@ def _name(outcome: Outcome) -> str:
 
 
 def _means(outcomes: Sequence[Outcome]) -> Means:
+    return _by_planner(outcomes, lambda outcome: outcome.mean)
+
+
+def _errors(outcomes: Sequence[Outcome]) -> Means:
+    """Half the widths of the 95 % intervals of the means, over the oceans of a scenario."""
+
+    def error(outcome: Outcome) -> float:
+        runs = len(outcome.completions)
+        return 1.96 * float(np.std(outcome.completions, ddof=1)) / runs**0.5 if runs > 1 else 0.0
+
+    return _by_planner(outcomes, error)
+
+
+def _fleets(outcomes: Sequence[Outcome]) -> list[int]:
+    """AUVs of the five-tiered planner on every scenario."""
+    sizes = _by_planner(outcomes, lambda outcome: float(outcome.fleet_size))["five-tier"]
+    return [int(size) for size in sizes]
+
+
+def _by_planner(outcomes: Sequence[Outcome], figure: Callable[[Outcome], float]) -> Means:
     """In the order of the scenarios, those only that all planners have sailed."""
     table: dict[str, dict[int, float]] = {}
     for outcome in outcomes:
-        table.setdefault(_name(outcome), {})[outcome.cell.scenario] = outcome.mean
+        table.setdefault(_name(outcome), {})[outcome.cell.scenario] = figure(outcome)
     whole = sorted(set.intersection(*(set(row) for row in table.values())))
     return {name: np.array([row[scenario] for scenario in whole]) for name, row in table.items()}
 

@@ -1,0 +1,228 @@
+"""What each part of the five-tiered planner is worth: one of them changed at a time.
+
+Every variant sails the same oceans on the same scenarios, M = 4, so that differences are taken
+scenario by scenario. Variants that plan differently before departure have plans of their own; all
+others set out with the plan of the whole planner.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fiveroute.generate import paper_scenario
+from fiveroute.instance import Instance
+from fiveroute.mission import plan_mission
+from fiveroute.plan import Plan
+from fiveroute.sea.departure import departure_plan, slack_plan
+from fiveroute.sea.simulation import simulate_fleet
+from fiveroute.sea.theatre import Theatre
+
+__all__ = [
+    "FLEET",
+    "VARIANTS",
+    "WHOLE",
+    "Ablation",
+    "Trial",
+    "Variant",
+    "ablation_table",
+    "gathered",
+    "sail_variants",
+]
+
+FLEET = 4
+"""AUVs of all variants."""
+
+_RESAMPLES = 10_000
+_SAMPLES = 50  # of the leg times, for S-GGARP
+
+Planning = Callable[[Instance, int], Plan]
+"""How a plan is made, of an instance and a seed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """The planner with one part changed.
+
+    Parameters
+    ----------
+    group, name
+        What is changed, and to what.
+    planner
+        Who steers.
+    reserve
+        Standard deviations of the remaining time kept in hand.
+    planning
+        How its plan is made; None takes rehearsed plans for its own reserve.
+    """
+
+    group: str
+    name: str
+    planner: str = "five-tier"
+    reserve: float = 1.645
+    planning: Planning | None = None
+
+
+def _slack(slack: float) -> Planning:
+    return lambda instance, seed: slack_plan(instance, slack, fleet_size=FLEET, seed=seed)
+
+
+def _paper(samples: int, quantile: float | None = None) -> Planning:
+    """Tiers 1 and 2 of the paper alone, by GGA without samples or S-GGARP with them."""
+
+    def plan(instance: Instance, seed: int) -> Plan:
+        mission = plan_mission(
+            instance,
+            fleet_size=FLEET,
+            search="paper",
+            samples=samples,
+            quantile=quantile,
+            seed=seed,
+        )
+        return mission.result.plan or Plan.empty(FLEET)
+
+    return plan
+
+
+WHOLE = Variant("", "five-tier as it is")
+"""What all others are compared with."""
+
+VARIANTS = (
+    Variant("tier 5", "no coordination", "no-coordination"),
+    Variant("tier 5", "discarding and auction only, as printed", "to-the-letter"),
+    Variant("tier 5", "own pick-up, no auction", "own-pick-up"),
+    Variant("tier 5", "auction, perfect communication", "of-one-mind"),
+    Variant("tier 5", "CBBA instead of the auction", "cbba"),
+    Variant("tier 5", "re-optimisation at every event", "re-optimising"),
+    Variant("reserve", "0, as in the paper", reserve=0.0),
+    Variant("reserve", "0.8", reserve=0.8),
+    Variant("plan", "best plan for planned times, no slack", planning=_slack(1.0)),
+    Variant("plan", "slack 4 %", planning=_slack(1.04)),
+    Variant("plan", "slack 8 %", planning=_slack(1.08)),
+    Variant("plan", "Algorithm 1, GGA: no sampling", planning=_paper(0)),
+    Variant("plan", "Algorithm 1, S-GGARP: sampled mean", planning=_paper(_SAMPLES)),
+    Variant("plan", "Algorithm 1, S-GGARP: 0.9 quantile", planning=_paper(_SAMPLES, 0.9)),
+)
+"""All changes, one at a time."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ablation:
+    """What became of a variant.
+
+    Parameters
+    ----------
+    variant
+        The variant.
+    completions
+        Mean completion rate on every scenario.
+    late_share
+        Share of AUVs that came home late.
+    """
+
+    variant: Variant
+    completions: tuple[float, ...]
+    late_share: float
+
+
+class Trial(NamedTuple):
+    """What became of a variant on one scenario.
+
+    Parameters
+    ----------
+    scenario
+        Number of the paper scenario.
+    variant
+        The variant.
+    completion
+        Mean completion rate.
+    late_share
+        Share of AUVs that came home late.
+    """
+
+    scenario: int
+    variant: Variant
+    completion: float
+    late_share: float
+
+
+def sail_variants(
+    scenarios: int, runs: int, *, seed: int = 0, variants: Sequence[Variant] = VARIANTS
+) -> Generator[Trial]:
+    """Sail all variants, the whole planner first, scenario by scenario."""
+    for scenario in range(1, scenarios + 1):
+        instance = paper_scenario(scenario)
+        theatre = Theatre.of(instance, FLEET)
+        plans: dict[float, Plan] = {}
+        for variant in (WHOLE, *variants):
+            plan = _plan_of(variant, instance, theatre, plans, seed)
+            result = simulate_fleet(
+                theatre,
+                plan,
+                planner=variant.planner,
+                runs=runs,
+                reserve=variant.reserve,
+                seed=seed * 1000 + scenario,
+                log=False,
+            )
+            late = result.late_returns / (runs * FLEET)
+            yield Trial(scenario, variant, float(result.completions.mean()), late)
+
+
+def _plan_of(
+    variant: Variant, instance: Instance, theatre: Theatre, plans: dict[float, Plan], seed: int
+) -> Plan:
+    """The plan of a variant; rehearsed plans are made once for a reserve, and kept."""
+    if variant.planning is not None:
+        return variant.planning(instance, seed)
+    if variant.reserve not in plans:
+        plans[variant.reserve] = departure_plan(theatre, reserve=variant.reserve, seed=seed)
+    return plans[variant.reserve]
+
+
+def gathered(trials: Sequence[Trial]) -> tuple[Ablation, ...]:
+    """One row a variant, over the scenarios that all variants have sailed."""
+    last = Counter(trial.scenario for trial in trials)
+    whole = {scenario for scenario, count in last.items() if count == last.most_common(1)[0][1]}
+    sailed: dict[Variant, list[Trial]] = {}
+    for trial in trials:
+        if trial.scenario in whole:
+            sailed.setdefault(trial.variant, []).append(trial)
+    return tuple(
+        Ablation(
+            variant,
+            tuple(trial.completion for trial in rows),
+            float(np.mean([trial.late_share for trial in rows])),
+        )
+        for variant, rows in sailed.items()
+    )
+
+
+def ablation_table(rows: Sequence[Ablation]) -> str:
+    """The table as Markdown: means, and differences to the first row in points."""
+    lines = [
+        "| | | completion | difference, points | late |",
+        "|---|---|---|---|---|",
+    ]
+    base = np.array(rows[0].completions)
+    for row in rows:
+        values = np.array(row.completions)
+        difference = "" if row is rows[0] else _interval(100.0 * (values - base))
+        lines.append(
+            f"| {row.variant.group} | {row.variant.name} | {values.mean():.3f} | {difference} | "
+            f"{100.0 * row.late_share:.1f} % |"
+        )
+    return "\n".join(lines)
+
+
+def _interval(differences: NDArray[np.float64]) -> str:
+    """A mean and its 95 % interval by resampling scenarios."""
+    rng = np.random.default_rng(0)
+    picks = rng.integers(len(differences), size=(_RESAMPLES, len(differences)))
+    low, high = np.percentile(differences[picks].mean(axis=1), (2.5, 97.5)).tolist()
+    return f"{differences.mean():+.1f} ({low:+.1f} to {high:+.1f})"
