@@ -29,6 +29,7 @@ _PICTURES = (".png", ".svg", ".pdf")
 
 @click.command("gap")
 @click.argument("instances", nargs=-1, required=True, type=click.Path(path_type=Path))
+@options.fleet_size
 @options.time_limit
 @click.option(
     "--exact-time-limit",
@@ -85,6 +86,7 @@ _PICTURES = (".png", ".svg", ".pdf")
 def command(
     ctx: click.Context,
     instances: tuple[Path, ...],
+    fleet_size: int | None,
     time_limit: float,
     exact_time_limit: float,
     method: str,
@@ -137,7 +139,14 @@ def command(
     for note in notes:
         _say(note)
     settings = GapSettings(
-        time_limit, exact_time_limit, method, _SIDES[only], asked, straight_lines, seed
+        time_limit=time_limit,
+        exact_time_limit=exact_time_limit,
+        method=method,
+        side=_SIDES[only],
+        fleet_size=fleet_size,
+        peers=asked,
+        straight_lines=straight_lines,
+        seed=seed,
     )
 
     def work(limits: Limits, progress: ProgressCallback | None) -> list[GapRow]:
@@ -155,6 +164,9 @@ def command(
     outcome = run(work, Limits())
     rows = outcome.value
     summary = summarise(rows)
+    for row in rows:
+        if row.unreachable:
+            _say(f"{row.instance}: {row.unreachable} nodes cannot be reached and are not visited")
     for name in summary.contradictions:
         _say(f"{name}: the best known value is above the proven bound; one of them is wrong")
     if output is not None and rows:

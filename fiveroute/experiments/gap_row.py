@@ -47,6 +47,8 @@ class GapSettings:
         Exact method, ``auto`` or a name in `fiveroute.models.METHODS`.
     side
         Whether planner, exact method or both run.
+    fleet_size
+        Number of AUVs; None takes that of the instance, or the planner's estimate.
     peers
         Names in `fiveroute.peers.PEERS`.
     straight_lines
@@ -59,6 +61,7 @@ class GapSettings:
     exact_time_limit: float = math.inf
     method: str = "auto"
     side: Side = "both"
+    fleet_size: int | None = None
     peers: tuple[str, ...] = ()
     straight_lines: bool = False
     seed: int = 0
@@ -178,11 +181,12 @@ def measure(
     _warm_up(settings.side, settings.method)
     planned = exact = None
     if settings.side == "exact":
-        problem = voyage.instance.problem(None, voyage.travel)
+        problem = voyage.instance.problem(settings.fleet_size, voyage.travel)
     else:
         mission = plan_mission(
             voyage.instance,
             travel=voyage.travel,
+            fleet_size=settings.fleet_size,
             limits=limits.within(settings.time_limit),
             seed=settings.seed,
             progress=progress,

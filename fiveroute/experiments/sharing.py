@@ -6,6 +6,7 @@ cluster Dask: a worker that dies takes nothing with it but time.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Generator, Sequence
 from typing import Any, TypeVar
 
@@ -58,7 +59,14 @@ def _on_machine(
     from joblib import Parallel, delayed
 
     pool = Parallel(n_jobs=workers, return_as="generator_unordered", batch_size=1)
-    yield from pool(delayed(work)(*task) for task in tasks)
+    answers = pool(delayed(work)(*task) for task in tasks)
+    try:
+        for answer in answers:  # noqa: UP028 - `yield from` would close the pool with a warning
+            yield answer
+    finally:
+        with warnings.catch_warnings():  # of tasks that are given up: that is meant
+            warnings.simplefilter("ignore", UserWarning)
+            answers.close()
 
 
 def _on_cluster(

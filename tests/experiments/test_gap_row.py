@@ -64,3 +64,10 @@ def test_peers_get_the_planners_problem_and_its_time(monkeypatch: pytest.MonkeyP
     row = measure(Voyage.straight(ring()), settings)
     assert asked == [("vroom", 0.5, 4), ("pyvrp", 0.5, 4)]
     assert row.best_known == 1e9
+
+
+@pytest.mark.parametrize("side", ["heuristic", "exact"])
+def test_the_fleet_may_be_another(side: Side) -> None:
+    instance = ring(size=None)
+    row = measure(Voyage.straight(instance), GapSettings(side=side, fleet_size=1))
+    assert row.fleet_size == 1
