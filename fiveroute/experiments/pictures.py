@@ -228,7 +228,8 @@ def gap_profile(
     axes[0].set_xscale("symlog", linthresh=0.01)
     axes[0].set(xlim=(-0.002, 100.0), ylim=(0.0, 1.02), title="Performance profile")
     axes[0].set(xlabel="below the best known value by at most, %", ylabel="share of instances")
-    axes[0].legend(loc="best", fontsize="small")
+    if shortfalls:
+        axes[0].legend(loc="best", fontsize="small")
     if solved:
         _draw_shares(axes[1], solved, len(proof_times), 2.0 * solved[-1], color=_COLOURS[0])
         axes[1].set(xscale="log", xlabel="s", ylabel="share of instances", ylim=(0.0, 1.02))

@@ -5,8 +5,8 @@ PyVRP minimises distance less prizes. It knows duration and distance apart, so d
 and distances so coarse that prizes outweigh them while they still tell short routes from long.
 
 What makes it strong here: excess time is punished by a factor that PyVRP learns, but from a first
-value that suits everyday units. A first value in proportion to what a unit of time is worth, all
-prizes over all budgets, halves its gap.
+value that suits everyday units. From a first value in proportion to what a unit of time is worth,
+all prizes over all budgets, it fell half as far below the best known values in a few seconds.
 
 References
 ----------

@@ -2,9 +2,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.lines import Line2D
 
 from fiveroute.errors import InputError
-from fiveroute.experiments.pictures import Panel, completion_boxes, route_panels, save
+from fiveroute.experiments.pictures import (
+    Panel,
+    completion_boxes,
+    gap_profile,
+    route_panels,
+    save,
+)
 from fiveroute.instance import Fleet, Instance, Node, Point
 
 LINE = Instance(
@@ -48,6 +55,31 @@ def test_boxes_mark_the_published_mean_where_there_is_one() -> None:
     diamonds = [line for line in figure.axes[0].lines if line.get_marker() == "D"]
     heights = [np.array(line.get_ydata()).tolist() for line in diamonds]
     assert [height for height in heights if height] == [[0.65]]
+
+
+def share_at(line: Line2D, place: float) -> float:
+    x, y = np.array(line.get_xdata()), np.array(line.get_ydata())
+    return float(y[x <= place][-1])
+
+
+def test_a_profile_climbs_to_the_share_that_is_reached() -> None:
+    figure = gap_profile({"a": [0.0, 0.5, 0.01], "b": [1.0, 0.0, 0.0]}, [])
+    (axis,) = figure.axes
+    a, b = axis.lines
+    assert [a.get_label(), b.get_label()] == ["a", "b"]
+    assert [share_at(a, x) for x in (0.0, 0.9, 1.0, 50.0)] == [1 / 3, 1 / 3, 2 / 3, 1.0]
+    assert [share_at(b, x) for x in (0.0, 99.0, 100.0)] == [2 / 3, 2 / 3, 1.0]
+
+
+def test_what_was_not_proved_counts_in_the_share_over_time() -> None:
+    _, axis = gap_profile({"exact": [0.0, 0.0]}, [3.0, None, 1.0, None]).axes
+    (line,) = axis.lines
+    assert [share_at(line, t) for t in (1.0, 2.9, 3.0, 6.0)] == [0.25, 0.25, 0.5, 0.5]
+
+
+def test_a_profile_of_nothing_is_empty() -> None:
+    (axis,) = gap_profile({}, [None]).axes
+    assert len(axis.lines) == 0
 
 
 def test_a_picture_appears_whole_or_not_at_all(tmp_path: Path) -> None:
