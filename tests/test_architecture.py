@@ -93,9 +93,9 @@ def test_imports_point_one_way(module: str) -> None:
 
 
 @pytest.mark.parametrize("module", MODULES)
-def test_pictures_are_drawn_in_one_room(module: str) -> None:
+def test_pictures_are_drawn_in_their_rooms(module: str) -> None:
     if any(name.split(".")[0] == "matplotlib" for name in imports(MODULES[module])):
-        assert module in {
+        assert below(module, "fiveroute.plots") or module in {
             "fiveroute.decide.picture",
             "fiveroute.experiments.pictures",
             "fiveroute.experiments.sea_pictures",

@@ -1,0 +1,53 @@
+"""``fiveroute view``: a look at a plan."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from fiveroute.cli import options
+
+__all__ = ["command"]
+
+
+@click.command("view")
+@click.argument("plan", type=click.Path(path_type=Path))
+@click.argument("other", type=click.Path(path_type=Path), required=False)
+@click.option(
+    "--events",
+    type=click.Path(path_type=Path),
+    multiple=True,
+    help="Runs to play, as `simulate --events` wrote them; twice for PLAN and OTHER, or to "
+    "compare two logs of PLAN.",
+)
+@click.option(
+    "--run",
+    type=click.IntRange(min=0),
+    metavar="K",
+    help="Run to draw in a picture or film; in a page choose it there.",
+)
+@click.option(
+    "--instance",
+    type=click.Path(path_type=Path),
+    help="Instance that the plan must be for; its folder has the file of currents.",
+)
+@options.output("File to write: .html, .png, .svg, .pdf or .gif.", required=True)
+@options.force
+def command(
+    plan: Path,
+    other: Path | None,
+    events: tuple[Path, ...],
+    run: int | None,
+    instance: Path | None,
+    output: Path,
+    force: bool,
+) -> None:
+    """Show PLAN, beside OTHER if there is one, on a page of its own that needs no network."""
+    from fiveroute.cli.files import require_output
+    from fiveroute.view.looks import load_scenes, require_look, write_look
+
+    require_output(output, force)
+    require_look(output)
+    scenes = load_scenes([plan] if other is None else [plan, other], events, instance)
+    write_look(scenes, output, run=run, force=force)

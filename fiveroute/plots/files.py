@@ -1,0 +1,109 @@
+"""Pictures and films as files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from matplotlib.animation import FuncAnimation, PillowWriter
+from matplotlib.artist import Artist
+from matplotlib.figure import Figure
+
+from fiveroute.errors import InputError
+from fiveroute.formats.files import written_whole
+from fiveroute.plots.mission import draw_fleet, plot_mission, plot_plan, run_legs
+from fiveroute.plots.sea import plot_sea
+from fiveroute.view.event_log import RunLog
+from fiveroute.view.scene import Scene
+
+__all__ = ["write_film", "write_picture"]
+
+_FRAMES, _FRAMES_A_SECOND = 72, 9
+_SHADES = 8
+
+
+def write_picture(scenes: Sequence[Scene], path: Path, *, run: int | None = None) -> None:
+    """Draw scenes side by side to a PNG, PDF or SVG file, whole or not at all.
+
+    Parameters
+    ----------
+    scenes
+        One scene or two.
+    path
+        The file.
+    run
+        Number of the run that is drawn; None draws the plans.
+    """
+    figure = _figure(scenes)
+    for scene, ax in zip(scenes, figure.subplots(1, len(scenes), squeeze=False)[0], strict=True):
+        if run is None:
+            plot_plan(scene, ax)
+        else:
+            plot_mission(scene, _run_of(scene, run), ax=ax)
+    _add_legend(figure)
+    _save(path, lambda draft: figure.savefig(draft, dpi=150))
+
+
+def write_film(scenes: Sequence[Scene], path: Path, *, run: int | None = None) -> None:
+    """Draw a mission as a film to a GIF file, whole or not at all.
+
+    Parameters
+    ----------
+    scenes
+        One scene or two.
+    path
+        The file.
+    run
+        Number of the run; None takes the first one, or the plan where there is none.
+    """
+    figure = _figure(scenes)
+    axes = figure.subplots(1, len(scenes), squeeze=False)[0]
+    logs = [_first_run(scene) if run is None else _run_of(scene, run) for scene in scenes]
+    legs = [run_legs(scene, log) for scene, log in zip(scenes, logs, strict=True)]
+    end = max((leg.done for fleet in legs for own in fleet for leg in own), default=0.0)
+    for scene, ax in zip(scenes, axes, strict=True):
+        plot_sea(scene, ax, shades=_SHADES)
+        ax.set_title(" ")
+    figure.canvas.draw()
+    figure.set_layout_engine("none")
+    still = {ax: set(ax.get_children()) for ax in axes}
+
+    def draw(frame: int) -> list[Artist]:
+        for scene, fleet, ax in zip(scenes, legs, axes, strict=True):
+            for artist in set(ax.get_children()) - still[ax]:
+                artist.remove()
+            draw_fleet(ax, scene, fleet, end * frame / (_FRAMES - 1))
+        return []
+
+    film = FuncAnimation(figure, draw, frames=_FRAMES)
+    _save(path, lambda draft: film.save(draft, writer=PillowWriter(fps=_FRAMES_A_SECOND), dpi=72))
+
+
+def _first_run(scene: Scene) -> RunLog | None:
+    return scene.runs[0] if scene.runs else None
+
+
+def _run_of(scene: Scene, number: int) -> RunLog:
+    for run in scene.runs:
+        if run.run == number:
+            return run
+    known = ", ".join(str(run.run) for run in scene.runs) or "none; pass --events"
+    raise InputError(f"is no run of the log; known are {known}", field="run", value=number)
+
+
+def _figure(scenes: Sequence[Scene]) -> Figure:
+    return Figure(figsize=(8.0 * len(scenes), 6.8), layout="constrained")
+
+
+def _add_legend(figure: Figure) -> None:
+    """One legend for all maps: that of the largest fleet."""
+    known = [ax.get_legend_handles_labels() for ax in figure.axes]
+    figure.legend(*max(known, key=lambda one: len(one[0])), loc="outside lower center", ncols=8)
+
+
+def _save(path: Path, write: Callable[[Path], object]) -> None:
+    try:
+        with written_whole(path) as draft:
+            write(draft)
+    except OSError as error:
+        raise InputError(f"cannot be written ({error.strerror})", file=path) from None

@@ -1,0 +1,90 @@
+"""From files to a look at them: a page, a picture, a film."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from fiveroute.errors import InputError
+from fiveroute.formats.files import require_writable, write_text_atomically
+from fiveroute.view.scene import Scene, scene_of
+
+__all__ = ["load_scenes", "require_look", "write_look"]
+
+_PICTURES = (".pdf", ".png", ".svg")
+_LOOKS = (".gif", ".html", *_PICTURES)
+
+
+def load_scenes(
+    plans: Sequence[Path], logs: Sequence[Path] = (), instance: Path | None = None
+) -> list[Scene]:
+    """Read one plan or two and what was logged of them.
+
+    Parameters
+    ----------
+    plans
+        Plan files, one or two.
+    logs
+        Event logs; the k-th belongs to the k-th plan, and two logs of one plan are two scenes.
+    instance
+        Instance that the plans must be for.
+
+    Raises
+    ------
+    InputError
+        If a file is wrong, or there are too many.
+    """
+    from fiveroute.formats import read_instance
+    from fiveroute.formats.plan_file import read_plan
+    from fiveroute.view.event_log import read_events
+
+    if not 1 <= len(plans) <= 2 or len(logs) > 2:
+        raise InputError("two plans and two logs can be compared, no more")
+    mission = None if instance is None else read_instance(instance)
+    files = [*plans, plans[-1]][: max(len(plans), len(logs))]
+    scenes = []
+    for k, path in enumerate(files):
+        plan = read_plan(path, mission)
+        runs = read_events(logs[k], plan) if k < len(logs) else ()
+        folder = path.parent if instance is None else instance.parent
+        named = [path.stem, *([logs[k].stem] if len(plans) == 1 and len(logs) == 2 else [])]
+        title = ", ".join(named) if len(files) == 2 else plan.instance.name
+        scenes.append(scene_of(plan, folder, runs=runs, title=title))
+    return scenes
+
+
+def require_look(path: Path) -> None:
+    """Refuse a file whose suffix is none that can be written."""
+    if path.suffix.lower() not in _LOOKS:
+        raise InputError(
+            f"ends in none of {', '.join(_LOOKS)}; choose one", field="output", value=path.name
+        )
+
+
+def write_look(
+    scenes: Sequence[Scene], path: Path, *, run: int | None = None, force: bool = False
+) -> None:
+    """Write a page, a picture or a film, whole or not at all; the suffix tells which.
+
+    Parameters
+    ----------
+    scenes
+        One scene or two.
+    path
+        The file.
+    run
+        Number of the run in a picture or film; None shows the plans, or the first run in a film.
+    force
+        Overwrite an existing file.
+    """
+    require_look(path)
+    require_writable(path, force)
+    suffix = path.suffix.lower()
+    if suffix == ".html":
+        from fiveroute.view.page import page_of
+
+        write_text_atomically(path, page_of(scenes), force)
+        return
+    from fiveroute.plots.files import write_film, write_picture
+
+    (write_film if suffix == ".gif" else write_picture)(scenes, path, run=run)

@@ -1,0 +1,27 @@
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+Call = Callable[..., Any]
+
+
+def test_a_plan_can_be_looked_at(call: Call, tiny: Path, tmp_path: Path) -> None:
+    plan, page = tmp_path / "plan.json", tmp_path / "page.html"
+    assert call("plan", tiny, "--output", plan).code == 0
+    answer = call("view", plan, "--instance", tiny, "--output", page)
+    assert (answer.code, answer.out) == (0, "")
+    assert "Content-Security-Policy" in page.read_text(encoding="utf-8")
+
+
+def test_wrong_calls_are_told(call: Call, tiny: Path, tmp_path: Path) -> None:
+    plan = tmp_path / "plan.json"
+    call("plan", tiny, "--output", plan)
+    wrong = call("view", plan, "--output", tmp_path / "plan.bmp")
+    assert wrong.code == 2
+    assert "ends in none of .gif, .html" in wrong.err
+    exists = call("view", plan, "--output", plan)
+    assert exists.code == 2
+    assert "--force" in exists.err
+    instance = call("view", tiny, "--output", tmp_path / "page.html")
+    assert instance.code == 2
+    assert "is not the format of this file" in instance.err

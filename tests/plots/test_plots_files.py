@@ -1,0 +1,30 @@
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from fiveroute.errors import InputError
+from fiveroute.plots import files
+from fiveroute.plots.files import write_film, write_picture
+from fiveroute.view.scene import Scene
+
+
+def test_film_has_its_frames(pond: Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(files, "_FRAMES", 4)
+    path = tmp_path / "film.gif"
+    write_film([pond], path)
+    with Image.open(path) as film:
+        assert getattr(film, "n_frames", 1) == 4
+
+
+def test_two_scenes_are_side_by_side(pond: Scene, bay: Scene, tmp_path: Path) -> None:
+    one, two = tmp_path / "one.png", tmp_path / "two.png"
+    write_picture([pond], one, run=3)
+    write_picture([pond, bay], two)
+    with Image.open(one) as narrow, Image.open(two) as wide:
+        assert wide.width == 2 * narrow.width
+
+
+def test_folder_that_cannot_be_written_to(pond: Scene, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="cannot be written"):
+        write_picture([pond], tmp_path / "missing" / "plan.png")

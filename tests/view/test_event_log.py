@@ -1,0 +1,47 @@
+import json
+from pathlib import Path
+
+import pytest
+
+from fiveroute.errors import InputError
+from fiveroute.formats.plan_file import PlanFile
+from fiveroute.sea.events import Event
+from fiveroute.view.event_log import read_events, run_logs
+
+
+def test_runs_come_in_their_order_with_vertices(plan: PlanFile, log_path: Path) -> None:
+    first, second = read_events(log_path, plan)
+    assert (first.run, second.run) == (0, 1)
+    assert first.events == (Event(9300.0, 0, "arrive"),)
+    assert second.events[2] == Event(1100.0, 0, "collect", 1)
+    assert [event.t for event in second.events] == sorted(event.t for event in second.events)
+
+
+GOOD = {"run": 0, "t": 1.0, "auv": 0, "kind": "collect", "node": "a"}
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("nonsense", "is no JSON"),
+        ("[1]", "is no event"),
+        (json.dumps(GOOD | {"kind": "explode"}), "kind: 'explode'"),
+        (json.dumps(GOOD | {"auv": 2}), "auv: 2: the plan has 2 AUVs"),
+        (json.dumps(GOOD | {"node": "z"}), "node: 'z': is no node of the plan's instance"),
+        (json.dumps(GOOD | {"t": -1.0}), "t: -1.0"),
+        (json.dumps(GOOD).replace("1.0", "NaN"), "line 2"),
+        (json.dumps(GOOD | {"speed": 1.0}), "speed: 1.0: is no key of this format"),
+        (json.dumps({"run": 0}), "is missing"),
+    ],
+)
+def test_wrong_line_is_named(plan: PlanFile, tmp_path: Path, line: str, said: str) -> None:
+    path = tmp_path / "log.jsonl"
+    path.write_text(f"{json.dumps(GOOD)}\n{line}\n")
+    with pytest.raises(InputError) as error:
+        read_events(path, plan)
+    assert str(error.value).startswith(f"{path}, line 2")
+    assert said in str(error.value)
+
+
+def test_blank_lines_do_not_count(plan: PlanFile) -> None:
+    assert len(run_logs(f"\n{json.dumps(GOOD)}\n\n", plan)) == 1

@@ -1,0 +1,262 @@
+"""The page in a real browser that has no network."""
+
+import math
+import shutil
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from fiveroute.formats.plan_file import PlanFile
+from fiveroute.view.event_log import read_events
+from fiveroute.view.page import page_of
+from fiveroute.view.scene import Scene, scene_of
+
+playwright = pytest.importorskip("playwright.sync_api", reason="needs Playwright")
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="needs a Chromium browser")
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    playwright.expect.set_options(timeout=20_000)
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+class Visit:
+    """A page opened without a network, and everything it complained about."""
+
+    def __init__(self, browser: Any, path: Path, **options: Any) -> None:
+        self.complaints: list[str] = []
+        self.asked: list[str] = []
+        context = browser.new_context(
+            viewport={"width": 1280, "height": 800}, offline=True, **options
+        )
+        context.route("**/*", self._decide)
+        self.page = context.new_page()
+        self.page.set_default_timeout(20_000)
+        self.page.on("console", lambda message: self.complaints.append(message.text))
+        self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        self.page.on("dialog", lambda dialog: self.complaints.append(dialog.message))
+        self.page.goto(path.as_uri())
+        playwright.expect(self.page.locator("#clock")).to_contain_text("/")
+
+    def _decide(self, route: Any) -> None:
+        if route.request.url.startswith("file:"):
+            route.continue_()
+        else:
+            self.asked.append(route.request.url)
+            route.abort()
+
+    def text(self, selector: str) -> str:
+        return str(self.page.inner_text(selector))
+
+    def set_time(self, share: float) -> None:
+        self.page.evaluate(
+            """(share) => {
+              const slider = document.getElementById("time");
+              slider.value = share * slider.max;
+              slider.dispatchEvent(new Event("input"));
+            }""",
+            share,
+        )
+        self.settle()
+
+    def settle(self) -> None:
+        self.page.evaluate(
+            "() => new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)))"
+        )
+
+    def pixels(self, place: int = 0) -> str:
+        """The map as it is drawn."""
+        self.settle()
+        script = "(k) => document.querySelectorAll('.pane canvas')[k].toDataURL()"
+        return str(self.page.evaluate(script, place))
+
+    def close(self) -> None:
+        self.page.context.close()
+        assert self.complaints == []
+        assert self.asked == []
+
+
+def written(scenes: list[Scene], folder: Path) -> Path:
+    path = folder / "page.html"
+    path.write_text(page_of(scenes), encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def scene(plan: PlanFile, log_path: Path) -> Scene:
+    return scene_of(plan, runs=read_events(log_path, plan))
+
+
+def test_click_through(browser: Any, scene: Scene, tmp_path: Path) -> None:
+    visit = Visit(browser, written([scene], tmp_path), color_scheme="light")
+    page = visit.page
+    assert page.title().startswith("bay </script>")
+    assert page.text_content("#title") == scene.instance.name
+
+    # The clock: slider, play, speed, keys.
+    page.select_option(".pane select", "0 1")
+    visit.set_time(0.5)
+    assert visit.text("#clock") == "0:41:40 / 1:23:20"
+    before = visit.pixels()
+    page.select_option("#speed", "1200")
+    page.click("#play")
+    assert page.get_attribute("#play", "aria-label") == "Pause"
+    playwright.expect(page.locator("#clock")).to_have_text("1:23:20 / 1:23:20")
+    playwright.expect(page.locator("#play")).to_have_attribute("aria-label", "Play")
+    assert visit.pixels() != before
+    assert "5 of 10" in visit.text(".figures")
+    page.keyboard.press("Home")
+    visit.settle()
+    assert visit.text("#clock").startswith("0:00:00")
+    page.locator(".pane canvas").focus()
+    page.keyboard.press("ArrowRight")
+    visit.settle()
+    assert visit.text("#clock").startswith("0:00:50")
+    page.keyboard.press("]")
+    visit.settle()
+    assert "AUV 1 has collected a" in visit.text("#said")
+
+    # The map: wheel, drag, keys, fit.
+    whole = visit.pixels()
+    page.mouse.move(400, 400)
+    page.mouse.wheel(0, -400)
+    near = visit.pixels()
+    assert near != whole
+    page.mouse.down()
+    page.mouse.move(460, 420, steps=3)
+    page.mouse.up()
+    assert visit.pixels() != near
+    page.keyboard.press("f")
+    page.mouse.move(1270, 790)
+    assert visit.pixels() == whole
+    page.keyboard.press("+")
+    assert visit.pixels() != whole
+    page.keyboard.press("-")
+    page.keyboard.press("Shift+ArrowUp")
+    assert visit.pixels() != whole
+
+    # Colours, help.
+    assert page.get_attribute("html", "data-theme") == "light"
+    page.keyboard.press("d")
+    assert page.get_attribute("html", "data-theme") == "dark"
+    page.keyboard.press("?")
+    assert page.is_visible("#keys")
+    page.click("#keys button")
+    assert not page.is_visible("#keys")
+    visit.close()
+
+
+def test_tables_tell_what_happens(browser: Any, scene: Scene, tmp_path: Path) -> None:
+    visit = Visit(browser, written([scene], tmp_path))
+    page = visit.page
+    page.select_option(".pane select", "0 1")
+    page.keyboard.press("End")
+    visit.set_time(1.0)
+    fleet = visit.text("#panel-fleet")
+    assert "1:23:20" in fleet
+    assert "failed 0:58:20" in fleet
+
+    page.click("#tab-nodes")
+    head = page.locator("#panel-nodes th").nth(1)
+    names = page.locator("#panel-nodes tbody td:first-child")
+    head.locator("button").click()
+    assert head.get_attribute("aria-sort") == "ascending"
+    assert names.all_inner_texts()[0] == "d"
+    head.locator("button").click()
+    assert head.get_attribute("aria-sort") == "descending"
+    shown = names.all_inner_texts()
+    assert shown[0] == "c"
+    assert "</script><img src=x onerror=alert(1)>&" in shown[1]
+    page.locator("#panel-nodes tbody tr").first.click()
+    assert page.locator("#panel-nodes tr.marked").count() == 1
+
+    page.click("#tab-events")
+    rows = page.locator("#events .event")
+    assert rows.count() == 11
+    page.get_by_label("messages").uncheck()
+    assert rows.count() == 9
+    rows.filter(has_text="drops").click()
+    visit.settle()
+    assert visit.text("#clock").startswith("0:19:10")
+    assert page.locator("#events .now").inner_text().startswith("0:19:10")
+
+    page.click("#tab-key")
+    assert "nobody has picked it up" in visit.text("#panel-key")
+    page.get_by_label("arrows of the current").uncheck()
+    visit.close()
+
+
+def test_two_plans_side_by_side(browser: Any, plan: PlanFile, scene: Scene, tmp_path: Path) -> None:
+    other = scene_of(replace(plan, paths=None), title="other")
+    visit = Visit(browser, written([scene, other], tmp_path), color_scheme="dark")
+    page = visit.page
+    assert page.locator(".pane").count() == 2
+    assert page.get_attribute("html", "data-theme") == "dark"
+    boths = [visit.pixels(0), visit.pixels(1)]
+    page.mouse.move(300, 400)
+    page.mouse.wheel(0, -300)
+    assert all(visit.pixels(k) != boths[k] for k in (0, 1))
+    page.select_option("#which", "1")
+    assert "plan as filed" in visit.text("#subtitle")
+    page.click("#compare")
+    assert page.locator(".pane").count() == 1
+    page.keyboard.press("c")
+    assert page.locator(".pane").count() == 2
+    visit.close()
+
+
+def test_hover_and_pinch(browser: Any, scene: Scene, tmp_path: Path) -> None:
+    visit = Visit(browser, written([scene], tmp_path), has_touch=True)
+    page = visit.page
+    box = page.locator(".pane canvas").bounding_box()
+    page.mouse.move(box["x"] + 40, box["y"] + box["height"] / 2)
+    assert "m/s to" in visit.text("#tip")
+    before = visit.pixels()
+    client = page.context.new_cdp_session(page)
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    def touch(kind: str, reach: float) -> None:
+        points = [{"x": x - reach, "y": y, "id": 0}, {"x": x + reach, "y": y, "id": 1}]
+        shown = [] if kind == "touchEnd" else points
+        client.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": shown})
+
+    touch("touchStart", 50)
+    touch("touchMove", 90)
+    touch("touchMove", 130)
+    touch("touchEnd", 0)
+    assert visit.pixels() != before
+    visit.close()
+
+
+def test_every_control_has_a_name(browser: Any, scene: Scene, tmp_path: Path) -> None:
+    visit = Visit(browser, written([scene], tmp_path))
+    nameless = visit.page.evaluate(
+        """() => [...document.querySelectorAll("button, select, input, canvas[tabindex]")]
+          .filter((control) => !(control.textContent.trim() || control.ariaLabel
+            || control.getAttribute("aria-label") || (control.labels && control.labels.length)))
+          .map((control) => control.outerHTML)"""
+    )
+    assert nameless == []
+    visit.close()
+
+
+def test_a_hundred_thousand_points_play(browser: Any, plan: PlanFile, tmp_path: Path) -> None:
+    many = 100_000
+    wave = tuple((4000.0 * k / many, 300.0 * math.sin(k / 900.0)) for k in range(1, many))
+    paths = ((((0.0, 0.0), *wave, (4000.0, 0.0)),), (((0.0, 0.0), (4000.0, 0.0)),))
+    long = replace(plan, routes=((), ()), paths=paths)
+    visit = Visit(browser, written([scene_of(long)], tmp_path))
+    visit.set_time(0.5)
+    half = visit.pixels()
+    visit.set_time(0.75)
+    assert visit.pixels() != half
+    visit.close()
