@@ -141,8 +141,8 @@ class App {
   fillSide() {
     const { active: pane, theme } = this;
     const { scene, timeline } = pane;
-    const end = timeline.isRun ? `${timeline.label} of ${scene.runs.length}` : "plan as filed";
-    byId("subtitle").textContent = `${scene.routes.length} AUVs · ${scene.ids.length} nodes · ${end} · fiveroute ${scene.version}`;
+    const what = timeline.isRun ? `${timeline.label} of ${scene.runs.length} runs` : timeline.label;
+    byId("subtitle").textContent = `${scene.routes.length} AUVs · ${scene.ids.length} nodes · ${what} · fiveroute ${scene.version}`;
     this.tables = [];
     if (!byId("panel-fleet").hidden) {
       this.tables.push(fleetTable(byId("panel-fleet"), pane, theme, (auv) => pane.mark(auv, 0)));

@@ -272,19 +272,19 @@ function drawEvent(context, x, y, event, age, theme) {
   } else if (event.kind === "fail") {
     drawRing(context, x, y, 10 + 60 * age, theme.alarm, 5, fade);
   } else if (event.kind === "manoeuvre") {
-    label(context, "avoids", x, y - 18 - 8 * age, theme.ink, theme, fade);
+    label(context, "avoids", x, y - 18 - 8 * age, theme, fade);
   } else if (event.kind === "discard" || event.kind === "pick_up") {
     drawRing(context, x, y, event.kind === "discard" ? 12 + 12 * age : 26 - 14 * age, colour, 3, fade);
-    label(context, event.kind === "discard" ? "dropped" : `to AUV ${event.auv + 1}`, x, y - 18 - 10 * age, colour, theme, fade);
+    label(context, event.kind === "discard" ? "dropped" : `to AUV ${event.auv + 1}`, x, y - 18 - 10 * age, theme, fade);
   }
 }
 
-function label(context, text, x, y, colour, theme, alpha) {
+function label(context, text, x, y, theme, alpha) {
   context.globalAlpha = alpha;
   context.font = "600 12px system-ui, sans-serif";
   context.textAlign = "center";
   context.textBaseline = "middle";
-  haloedText(context, text, x, y, colour, theme.halo);
+  haloedText(context, text, x, y, theme.ink, theme.halo);
   context.globalAlpha = 1;
 }
 

@@ -40,12 +40,12 @@ function planTimeline(scene) {
     }
   });
   events.sort((a, b) => a.t - b.t);
-  return finished(scene, "Plan as filed", scene.legs, events, false);
+  return finished(scene, "plan as filed", scene.legs, events, false);
 }
 
 function runTimeline(scene, run) {
   const events = run.t.map((t, k) => ({ t, auv: run.auv[k], kind: run.kind[k], node: run.node[k] }));
-  return finished(scene, `Run ${run.run}`, run.legs, events, true);
+  return finished(scene, `run ${run.run}`, run.legs, events, true);
 }
 
 function finished(scene, label, legs, events, isRun) {

@@ -242,7 +242,9 @@ class Pane {
   seaLines(px, py) {
     const [x, y] = [this.view.wx(px), this.view.wy(py)];
     const { chart, metres } = this.scene;
-    const lines = [`${length(x, metres)} east, ${length(y, metres)} north`];
+    const east = `${length(Math.abs(x), metres)} ${x < 0 ? "west" : "east"}`;
+    const north = `${length(Math.abs(y), metres)} ${y < 0 ? "south" : "north"}`;
+    const lines = [`${east}, ${north}`];
     const what = maskAt(chart, x, y);
     const velocity = chart && !what ? velocityAt(chart, x, y, this.t) : null;
     if (what) lines.push(what === LAND ? "land" : "no data");
