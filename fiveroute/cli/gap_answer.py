@@ -16,17 +16,24 @@ __all__ = ["print_gaps"]
 
 def print_gaps(rows: Sequence[GapRow], summary: GapSummary) -> None:
     """Print a row an instance, a row a solver, and what was proved."""
-    columns = [column for column in _columns(rows) if any(column[1](row) for row in rows)]
-    cells = [[text(row) or "-" for _, text in columns] for row in rows]
-    _print_table([name for name, _ in columns], cells)
+    if rows:
+        columns = [column for column in _columns(rows) if any(column[1](row) for row in rows)]
+        cells = [[text(row) or "-" for _, text in columns] for row in rows]
+        _print_table([name for name, _ in columns], cells)
     if len(summary.solvers) > 1:
         click.echo()
         _print_solvers(summary)
-    click.echo(
-        f"{summary.instances} instances, {summary.proved} proved optimal, "
-        f"{summary.reached} at the best known value; gap mean {gap_text(summary.mean_gap)}, "
-        f"median {gap_text(summary.median_gap)}, worst {gap_text(summary.worst_gap)}"
-    )
+    click.echo(_in_words(summary))
+
+
+def _in_words(summary: GapSummary) -> str:
+    parts = [f"{summary.instances} instances"]
+    if summary.mean_gap is not None:
+        parts.append(f"{summary.proved} proved optimal")
+    parts.append(f"{summary.reached} at the best known value")
+    gaps = ("mean", summary.mean_gap), ("median", summary.median_gap), ("worst", summary.worst_gap)
+    texts = [f"{name} {gap_text(gap)}" for name, gap in gaps if gap is not None]
+    return ", ".join(parts) + (f"; gap {', '.join(texts)}" if texts else "")
 
 
 Column = tuple[str, Callable[[GapRow], str]]

@@ -7,6 +7,8 @@ from typing import Any
 import pytest
 
 from fiveroute.cli.gap import PEERS
+from fiveroute.cli.gap_answer import print_gaps
+from fiveroute.experiments.gap_table import summarise
 from fiveroute.peers import PEERS as KNOWN
 
 
@@ -40,6 +42,15 @@ def test_a_table_for_people(call: Any, tiny: Path) -> None:
     assert lines[0].split()[:4] == ["instance", "nodes", "AUVs", "exact"]
     assert lines[1].split()[:5] == ["tiny", "3", "1", "0.75", "0.75"]
     assert lines[-1].startswith("1 instances, 1 proved optimal, 1 at the best known value")
+
+
+def test_a_run_without_bounds_or_rows_says_so(
+    call: Any, tiny: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    answer = call("gap", tiny, "--only", "heuristic")
+    assert answer.out.splitlines()[-1] == "1 instances, 1 at the best known value"
+    print_gaps([], summarise([]))
+    assert capsys.readouterr().out == "0 instances, 0 at the best known value\n"
 
 
 @pytest.mark.parametrize(
