@@ -58,6 +58,12 @@ class Completion:
     nearest: Ints
     step: float
 
+    def mirrored(self) -> Completion:
+        """The walks from the other end, where both directions are alike."""
+        value = self.value.copy()
+        value[:, [0, -1]] = value[:, [-1, 0]]
+        return Completion(value, self.nearest, self.step)
+
     def of_routes(self, limits: Floats, end: int) -> Floats:
         """Most value of a walk to the other end, for every limit."""
         steps = np.minimum((limits / self.step + _ROUNDING).astype(np.int64), len(self.value) - 1)

@@ -135,14 +135,13 @@ def sail_best(
         Told bounds on the plans over the pool.
     """
     choice = _Choice(pool, roads, incumbent, clock, on_bound)
-    if not roads.toll or incumbent.plan is None:
-        return choice.solve()
     while True:
         before = incumbent.objective
-        choice.demand(before + BETTER * max(1.0, before))
+        if roads.toll and incumbent.plan is not None:
+            choice.demand(before + BETTER * max(1.0, before))
         if not choice.solve():
             return False
-        if choice.is_empty:
+        if choice.is_empty or not roads.toll:
             return True
         if incumbent.objective <= before:
             return False

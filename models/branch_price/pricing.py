@@ -26,7 +26,7 @@ from fiveroute.limits import Clock
 from fiveroute.models.branch_price import labels as lb
 from fiveroute.models.branch_price.completion import Completion, complete, nearest_nodes, over_legs
 from fiveroute.models.branch_price.join import join_at, labels_at
-from fiveroute.models.branch_price.roads import Roads
+from fiveroute.models.branch_price.roads import Roads, is_mirrored
 from fiveroute.plan import Route
 
 __all__ = ["Cut", "Duals", "Priced", "Pricer"]
@@ -179,12 +179,15 @@ class Pricer:
             return Priced([], walks, True)
         if clock.expired:
             return Priced([], walks, False)
-        ahead = graph.complete(end, horizon, memory)
-        half = self.half * horizon
+        alike = is_mirrored(graph.leg)
+        ahead = behind.mirrored() if alike else graph.complete(end, horizon, memory)
+        half = (0.5 if alike else self.half) * horizon
         search = _Search(graph, self.roads.limits, floor, exact, clock, self.most_labels)
-        forward, backward = search.start(0), search.start(end)
+        forward = search.start(0)
+        backward = forward if alike else search.start(end)
         done = search.grow(forward, graph.leg, ahead, half)
-        done = done and search.grow(backward, graph.leg.T.copy(), behind, horizon - half)
+        if done and not alike:
+            done = search.grow(backward, graph.leg.T.copy(), behind, horizon - half)
         self.labels = forward.count + backward.count
         if not done:
             return Priced([], walks, False) if exact else None
@@ -216,7 +219,9 @@ class Pricer:
         leg, gain, toll = self.roads.leg, self.roads.profit - duals.node, self.roads.toll
         horizon = float(self.roads.limits[-1])
         behind = complete(leg, gain, 0, horizon, _STEPS, _MEMORY, toll)
-        ahead = complete(leg.T, gain, len(gain) - 1, horizon, _STEPS, _MEMORY, toll)
+        ahead = behind.mirrored()
+        if not is_mirrored(leg):
+            ahead = complete(leg.T, gain, len(gain) - 1, horizon, _STEPS, _MEMORY, toll)
         useless = np.ones(leg.shape, dtype=np.bool_)
         for limit, floor in zip(self.roads.limits.tolist(), floors.tolist(), strict=True):
             most = over_legs(leg, behind.value, ahead.value, behind.step, limit, toll)

@@ -16,7 +16,7 @@ from fiveroute.kernels import kernel
 from fiveroute.models.network import Network
 from fiveroute.problem import TeamOrienteering
 
-__all__ = ["Roads"]
+__all__ = ["Roads", "is_mirrored"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -127,6 +127,13 @@ class Roads:
         )
         kept: Ints = vertices[needed[vertices]]
         return kept
+
+
+def is_mirrored(leg: Floats) -> bool:
+    """Whether a route takes as long in the opposite direction, from the other end."""
+    other = np.arange(len(leg))
+    other[[0, -1]] = other[[-1, 0]]
+    return bool(np.array_equal(leg, leg[np.ix_(other, other)].T))
 
 
 @kernel

@@ -27,6 +27,7 @@ Booleans = NDArray[np.bool_]
 
 _MOST_NEIGHBOURS = 24
 _CUTS_AT_ONCE = 20
+_LABELS_WITH_CUTS, _MORE_LABELS = 100_000, 10  # that pricing may take with cuts, also relative
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,6 +154,8 @@ class Subproblem:
     def cut(self, on_bound: Callable[[float], None]) -> bool:
         """Add cuts to a relaxation that has converged; whether they lowered the bound."""
         assert self.relaxation is not None
+        if isinstance(self.pricer, Pricer) and not self.master.cuts:
+            self.pricer.most_labels = max(_LABELS_WITH_CUTS, _MORE_LABELS * self.pricer.labels)
         idle = np.flatnonzero(self.relaxation.duals.price <= 1e-9)
         if len(self.master.cuts) == len(self.relaxation.duals.price):
             self.master.remove_cuts(idle.tolist())
@@ -168,6 +171,9 @@ class Subproblem:
         self.master.add_cuts(cuts)
         before = self.bound
         has_converged = self.relax(on_bound)
+        if isinstance(self.pricer, Pricer) and not has_converged and self.bound > self.target():
+            last = len(self.master.cuts)
+            self.master.remove_cuts(range(last - len(cuts), last))
         return has_converged and self.bound < before - 1e-3 * abs(before) * 0.01
 
     def whole_routes(self) -> list[Route]:
