@@ -19,10 +19,11 @@ from typing import Any
 import numpy as np
 
 from fiveroute.limits import Limits
+from fiveroute.models.branch_price.branching import Branch
 from fiveroute.models.branch_price.neighbourhoods import nearest
 from fiveroute.models.branch_price.pricing import Pricer
 from fiveroute.models.branch_price.roads import Roads
-from fiveroute.models.branch_price.subproblem import Branch, Subproblem
+from fiveroute.models.branch_price.subproblem import Subproblem
 from fiveroute.models.network import Network
 from fiveroute.problem import TeamOrienteering
 

@@ -36,6 +36,7 @@ from fiveroute.plan import Route
 __all__ = ["Master"]
 
 Floats = NDArray[np.float64]
+Booleans = NDArray[np.bool_]
 
 _FINE = 10.0  # times all data, for an AUV without a route
 _SHORT_FINE = 100.0  # for what a plan collects less than the target
@@ -70,6 +71,7 @@ class Master:
         self.cuts: list[Cut] = []
         self._known: set[tuple[Route, int]] = set()
         self.objective = 0.0
+        self.shares = np.zeros(0)
         n, count = roads.problem.n, len(roads.limits)
         self._program = Program(clock, maximise=True)
         most = np.concatenate([np.ones(n), roads.routes[::-1].cumsum()[::-1]])
@@ -174,6 +176,24 @@ class Master:
         """Remove cuts by their places in `cuts`."""
         self._program.delete_rows([self._head + k for k in places])
         self.cuts = [cut for k, cut in enumerate(self.cuts) if k not in set(places)]
+
+    def trial(self, banned: Booleans, required: frozenset[int]) -> float | None:
+        """Objective over the known routes without some, with some nodes; None when stopped."""
+        places = [self._first + k for k in np.flatnonzero(banned) if self._allowed[k]]
+        highs = self._program.highs
+        for place in places:
+            highs.changeColBounds(place, 0.0, 0.0)
+        for node in required:
+            highs.changeRowBounds(node - 1, 1.0, 1.0)
+        outcome = self._program.solve()
+        value = self._program.objective + self.roads.refund
+        for place in places:
+            highs.changeColBounds(place, 0.0, np.inf)
+        for node in required:
+            highs.changeRowBounds(node - 1, -np.inf, 1.0)
+        if outcome is Outcome.INFEASIBLE:
+            return -np.inf
+        return value if outcome is Outcome.OPTIMAL else None
 
     def solve(self) -> Duals | None:
         """Solve; the multipliers, or None when stopped."""

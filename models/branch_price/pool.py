@@ -9,7 +9,7 @@ problem; any other pool gives a plan.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,7 +24,7 @@ from fiveroute.models.incumbent import Incumbent
 from fiveroute.plan import Plan, Route
 from fiveroute.result import PROOF_TOLERANCE
 
-__all__ = ["BETTER", "Pool", "plan_of", "sail_best"]
+__all__ = ["BETTER", "Pool", "plan_of", "sail_best", "stops_of", "taking"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -64,10 +64,9 @@ class Pool:
     @classmethod
     def of(cls, roads: Roads, routes: list[Route]) -> Pool:
         """A pool of routes through distinct nodes."""
-        stops = np.zeros((len(routes), max(map(len, routes), default=0)), dtype=np.int16)
-        for k, route in enumerate(routes):
-            stops[k, : len(route)] = route
-        return cls.along(roads, stops, np.array([roads.duration(route) for route in routes]))
+        return cls.along(
+            roads, stops_of(routes), np.array([roads.duration(route) for route in routes])
+        )
 
     @classmethod
     def along(cls, roads: Roads, stops: Shorts, time: Floats) -> Pool:
@@ -97,17 +96,30 @@ class Pool:
 
     def without(self, legs: Booleans) -> Pool:
         """The pool without the routes that take one of some legs, shape (n + 2, n + 2)."""
-        end = len(legs) - 1
-        barred = np.zeros(len(self), dtype=np.bool_)
-        before = np.zeros(len(self), dtype=np.int64)
-        for column in range(self.stops.shape[1] + 1):
-            here = np.zeros(len(self), dtype=np.int64)
-            if column < self.stops.shape[1]:
-                here += self.stops[:, column]
-            here[here == 0] = end
-            barred |= (before != end) & legs[before, here]
-            before = here
-        return self.chosen(np.flatnonzero(~barred))
+        return self.chosen(np.flatnonzero(~taking(self.stops, legs)))
+
+
+def stops_of(routes: Sequence[Route]) -> Shorts:
+    """Nodes of routes in the order of the visits, 0 beyond the last, shape (routes, longest)."""
+    stops = np.zeros((len(routes), max(map(len, routes), default=0)), dtype=np.int16)
+    for k, route in enumerate(routes):
+        stops[k, : len(route)] = route
+    return stops
+
+
+def taking(stops: Shorts, legs: Booleans) -> Booleans:
+    """Which routes take one of some legs, shape (n + 2, n + 2)."""
+    end = len(legs) - 1
+    found = np.zeros(len(stops), dtype=np.bool_)
+    before = np.zeros(len(stops), dtype=np.int64)
+    for column in range(stops.shape[1] + 1):
+        here = np.zeros(len(stops), dtype=np.int64)
+        if column < stops.shape[1]:
+            here += stops[:, column]
+        here[here == 0] = end
+        found |= (before != end) & legs[before, here]
+        before = here
+    return found
 
 
 def sail_best(

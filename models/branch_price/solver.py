@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.models.bounds import Effort, quick_bound
+from fiveroute.models.branch_price.branching import Branch
 from fiveroute.models.branch_price.elementary import enumerate_routes
 from fiveroute.models.branch_price.neighbourhoods import nearest
 from fiveroute.models.branch_price.pool import BETTER, Pool, plan_of, sail_best
 from fiveroute.models.branch_price.roads import Roads
-from fiveroute.models.branch_price.subproblem import Branch, Subproblem
+from fiveroute.models.branch_price.subproblem import Subproblem
 from fiveroute.models.common_divisor import common_divisor, rounded_down
 from fiveroute.models.greedy_plan import offer_greedy_plan
 from fiveroute.models.incumbent import Incumbent

@@ -3,40 +3,39 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
-from itertools import pairwise
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.limits import Clock
+from fiveroute.models.branch_price.branching import (
+    Branch,
+    by_leg,
+    by_node,
+    doubtful_legs,
+    doubtful_nodes,
+    most_telling,
+)
 from fiveroute.models.branch_price.column_generation import Relaxation, generate
 from fiveroute.models.branch_price.cuts import MOST_CUTS, separate
 from fiveroute.models.branch_price.inspection import Inspector
 from fiveroute.models.branch_price.master import Master
 from fiveroute.models.branch_price.neighbourhoods import grow, is_forgetful
-from fiveroute.models.branch_price.pool import Pool
+from fiveroute.models.branch_price.pool import Pool, stops_of, taking
 from fiveroute.models.branch_price.pricing import Cut, Pricer
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.plan import Route
 
-__all__ = ["Branch", "Subproblem"]
+__all__ = ["Subproblem"]
 
 Floats = NDArray[np.float64]
 Booleans = NDArray[np.bool_]
 
 _MOST_NEIGHBOURS = 24
 _CUTS_AT_ONCE = 20
+_CANDIDATES = 4  # nodes, and as many legs, that a division is chosen from
 _LABELS_WITH_CUTS, _MORE_LABELS = 100_000, 10  # that pricing may take with cuts, also relative
-
-
-@dataclass(frozen=True, slots=True)
-class Branch:
-    """What sets a subproblem apart: forbidden legs, required nodes, and its routes if known."""
-
-    forbidden: Booleans
-    required: frozenset[int]
-    pool: Pool | None = None
 
 
 class Subproblem:
@@ -182,32 +181,18 @@ class Subproblem:
         times = np.rint(shares).astype(np.int64).tolist()
         return [route for route, k in zip(routes, times, strict=True) for _ in range(k)]
 
-    def fractional_node(self) -> int | None:
-        """The node whose visits are the least decided."""
-        routes, shares = self.solution()
-        visits = np.zeros(len(self.near))
-        for route, share in zip(routes, shares, strict=True):
-            visits[list(route)] += share
-        distance = np.abs(visits - 0.5)
-        node = int(distance[1:-1].argmin()) + 1 if len(visits) > 2 else 0
-        return node if node and distance[node] < 0.5 - 1e-4 else None
-
-    def fractional_leg(self) -> tuple[int, int] | None:
-        """The leg whose use is the least decided."""
-        routes, shares = self.solution()
-        use: dict[tuple[int, int], float] = {}
-        end = len(self.near) - 1
-        for route, share in zip(routes, shares.tolist(), strict=True):
-            stops = (0, *route, end)
-            for leg in pairwise(stops):
-                use[leg] = use.get(leg, 0.0) + share
-        use.pop((0, end), None)
-        best = min(use, key=lambda leg: (abs(use[leg] - 0.5), leg), default=None)
-        return best if best is not None and abs(use[best] - 0.5) < 0.5 - 1e-4 else None
-
     def is_whole(self) -> bool:
         """Whether the last solution is a plan."""
-        return self.fractional_node() is None and self.fractional_leg() is None
+        return not self._doubts(1)
+
+    def _doubts(self, count: int) -> list[list[Branch]]:
+        """Divisions by the nodes and legs that the last solution leaves most in doubt."""
+        branch = replace(self.branch, pool=self.pool)
+        routes, shares = self.solution()
+        size = len(self.near)
+        nodes = doubtful_nodes(routes, shares, size, count)
+        legs = doubtful_legs(routes, shares, size, count)
+        return [by_node(branch, k) for k in nodes] + [by_leg(branch, leg) for leg in legs]
 
     def node_left_out(self) -> int | None:
         """The node with most data that the last solution could visit and does not."""
@@ -230,28 +215,15 @@ class Subproblem:
 
     def branches(self) -> list[Branch]:
         """Two subproblems that share all plans of this one between them; none if it is whole."""
-        node = self.fractional_node()
-        if node is None and self.roads.toll and self.is_whole():
+        doubts = self._doubts(_CANDIDATES)
+        if not doubts and self.roads.toll:
             node = self.node_left_out()
-        if node is not None:
-            idle = self.branch.forbidden.copy()
-            idle[node] = idle[:, node] = True
-            return [
-                Branch(self.branch.forbidden, self.branch.required | {node}, self.pool),
-                Branch(idle, self.branch.required, self.pool),
-            ]
-        leg = self.fractional_leg()
-        if leg is None:
-            return []
-        without, only = self.branch.forbidden.copy(), self.branch.forbidden.copy()
-        without[leg] = True
-        ends = {k for k in leg if 0 < k < len(self.near) - 1}
-        if leg[0] in ends:
-            only[leg[0]] = True
-        if leg[1] in ends:
-            only[:, leg[1]] = True
-        only[leg] = self.branch.forbidden[leg]
-        return [
-            Branch(only, self.branch.required | ends, self.pool),
-            Branch(without, self.branch.required, self.pool),
-        ]
+            return [] if node is None else by_node(replace(self.branch, pool=self.pool), node)
+        stops = stops_of(self.master.routes)
+
+        def loss(half: Branch) -> float | None:
+            banned = taking(stops, half.forbidden & ~self.branch.forbidden)
+            value = self.master.trial(banned, half.required - self.branch.required)
+            return None if value is None else max(self.master.objective - value, 0.0)
+
+        return most_telling(doubts, loss)
