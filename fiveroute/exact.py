@@ -54,6 +54,7 @@ def solve_from_good_plan(
 def _good_plan(problem: TeamOrienteering, limits: Limits, seed: int) -> Plan | None:
     """A plan of the fleet search; None where it finds none to start from."""
     from fiveroute.heuristics.fleet_search import default_trials, fleet_search
+    from fiveroute.models.bounds import Effort, quick_bound
 
     try:
         return fleet_search(
@@ -61,6 +62,7 @@ def _good_plan(problem: TeamOrienteering, limits: Limits, seed: int) -> Plan | N
             limits.within(_SHARE * limits.time),
             rng=np.random.default_rng(seed),
             iterations=default_trials(problem.n),
+            enough=quick_bound(problem, limits, effort=Effort.LEAST).value,
         )
     except ValueError:
         return None

@@ -243,6 +243,7 @@ def plan(
     straight_lines: bool = False,
     limits: Limits | float | None = None,
     seed: int = 0,
+    workers: int = 1,
     progress: ProgressCallback | None = None,
     folder: Path | None = None,
 ) -> FleetPlan:
@@ -270,6 +271,8 @@ def plan(
         Seconds, or limits; None lets every search end by itself.
     seed
         Seed of the random numbers; without a time limit it determines the plan.
+    workers
+        Number of threads of the fleet search; the plan does not depend on it.
     progress
         Called as the work goes on.
     folder
@@ -303,6 +306,7 @@ def plan(
         quantile=quantile,
         limits=clock.rest(),
         seed=seed,
+        workers=workers,
         progress=progress,
     )
     return FleetPlan(voyage, planned.problem, planned.result, planned)

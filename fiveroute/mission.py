@@ -9,6 +9,7 @@ from optimal.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -97,6 +98,7 @@ def plan_mission(
     quantile: float | None = None,
     limits: Limits | None = None,
     seed: int = 0,
+    workers: int = 1,
     progress: ProgressCallback | None = None,
 ) -> MissionPlan:
     """Plan a mission: how many AUVs, and the route of each.
@@ -127,6 +129,8 @@ def plan_mission(
         When to stop. Without a time limit every search ends by itself.
     seed
         Seed of the random numbers; without a time limit it determines the plan.
+    workers
+        Number of threads of the fleet search; the plan does not depend on it.
     progress
         Called as the work goes on.
 
@@ -170,7 +174,13 @@ def plan_mission(
         if search == "fleet" and plan is not None and not steps.clock.expired:
             until = steps.begin("fleet search", 1.0)
             plan = fleet_search(
-                problem, until, rng=for_fleet, warm_start=plan, progress=steps.relay
+                problem,
+                until,
+                rng=for_fleet,
+                warm_start=plan,
+                enough=_least_bound(problem) if bound != "none" else math.inf,
+                workers=workers,
+                progress=steps.relay,
             )
         result = _with_bound(problem, plan, bound, steps)
     return MissionPlan(
@@ -235,6 +245,13 @@ def _sampled(
     lengths_km = instance.travel * (instance.fleet.speed / 1000.0)
     legs = sample_legs(travel, lengths_km, instance.uncertainty, samples, rng)
     return SampledLegs(legs, RouteStatistic(quantile))
+
+
+def _least_bound(problem: TeamOrienteering) -> float:
+    """The bound that costs least; a plan that reaches it needs no further search."""
+    from fiveroute.models.bounds import Effort, quick_bound
+
+    return quick_bound(problem, effort=Effort.LEAST).value
 
 
 def _with_bound(

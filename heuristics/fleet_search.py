@@ -14,7 +14,6 @@ Times may be asymmetric and break the triangle inequality; budgets may differ.
 from __future__ import annotations
 
 import math
-import os
 
 import numpy as np
 
@@ -28,6 +27,9 @@ from fiveroute.problem import TeamOrienteering
 
 __all__ = ["default_trials", "fleet_search"]
 
+ROUNDING = 1e-9
+"""Share of what is enough that is put down to rounding."""
+
 SLICE = 500
 """Trials on every island between two looks at the clock: some 5 to 20 milliseconds each."""
 
@@ -40,7 +42,7 @@ def fleet_search(
     warm_start: Plan | None = None,
     iterations: int | None = None,
     enough: float = math.inf,
-    workers: int | None = None,
+    workers: int = 1,
     progress: ProgressCallback | None = None,
 ) -> Plan:
     """Search for the plan that collects most, and among those for the fastest.
@@ -61,7 +63,7 @@ def fleet_search(
     enough
         Data at which to stop, such as an upper bound.
     workers
-        Number of threads; None means one for every core. The answer does not depend on it.
+        Number of threads. The answer does not depend on it.
     progress
         Called with every better plan's objective.
 
@@ -76,8 +78,8 @@ def fleet_search(
     archipelago = Archipelago.around(start, problem, rng)
     trials = _trials(problem, limits, iterations)
     done, best = 0, archipelago.objective
-    enough = min(enough, archipelago.most) * (1.0 - 1e-12)
-    with crew(workers or os.cpu_count() or 1) as for_each:
+    enough = min(enough, archipelago.most) * (1.0 - ROUNDING)
+    with crew(workers) as for_each:
         while done < trials and archipelago.objective < enough and not clock.expired:
             part = max(done / trials, clock.seconds / limits.time if limits.time > 0.0 else 1.0)
             count = math.ceil(min(SLICE, (trials - done) / ISLANDS))

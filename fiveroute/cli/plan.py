@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -54,6 +55,12 @@ __all__ = ["command"]
     type=click.FloatRange(0.0, 1.0),
     help="Quantile of a route's sampled time that must fit the endurance; default: the mean.",
 )
+@click.option(
+    "--workers",
+    type=click.IntRange(min=1),
+    metavar="W",
+    help="Threads of the fleet search; default: one a core. The plan does not depend on them.",
+)
 @options.straight_lines
 @options.output("Write the plan to this file.")
 @options.force
@@ -70,6 +77,7 @@ def command(
     bound: Bounding,
     samples: int,
     quantile: float | None,
+    workers: int | None,
     straight_lines: bool,
     output: Path | None,
     force: bool,
@@ -97,6 +105,7 @@ def command(
             straight_lines=straight_lines,
             limits=limits,
             seed=seed,
+            workers=workers or os.cpu_count() or 1,
             progress=progress,
             folder=instance.parent,
         ),

@@ -123,8 +123,11 @@ class Archipelago:
         for island in self.islands:
             self.pool.add(island.best_trails)
         routes = self.pool.routes()
+        explorer = self.islands[-1]
         for_each(
-            lambda island: island.recombine(routes, self.pool.places(island.best_trails)),
+            lambda island: island.recombine(
+                routes, self.pool.places(island.best_trails), explore=island is explorer
+            ),
             self.islands,
         )
 

@@ -10,9 +10,10 @@ import numpy as np
 from fiveroute.heuristics.fleet.annealing import BEST_PROFIT, BEST_TIME, anneal
 from fiveroute.heuristics.fleet.chains import NEXT, Chains, build_chains, measure, trails_of
 from fiveroute.heuristics.fleet.cover import improve_cover
+from fiveroute.heuristics.fleet.fresh_route import fresh_route
 from fiveroute.heuristics.fleet.network import Floats, Ints, Network, Trail
 from fiveroute.heuristics.fleet.route_pool import PooledRoutes
-from fiveroute.heuristics.randomness import RandomState
+from fiveroute.heuristics.randomness import RandomState, below
 
 __all__ = ["Island"]
 
@@ -104,7 +105,7 @@ class Island:
             self.state,
         )
 
-    def recombine(self, pool: PooledRoutes, chosen: Ints) -> None:
+    def recombine(self, pool: PooledRoutes, chosen: Ints, *, explore: bool) -> None:
         """Go on from the best combination of a pool's routes that is found.
 
         Parameters
@@ -113,6 +114,8 @@ class Island:
             The routes.
         chosen
             Those of them that are the island's best, one for every AUV.
+        explore
+            Whether one AUV gets a new route of idle nodes instead.
         """
         net = self.network
         chosen = chosen.copy()
@@ -124,7 +127,19 @@ class Island:
         for route in chosen:
             trails.append(tuple(node for node in pool.trail(route) if node not in seen))
             seen.update(trails[-1])
+        if explore:
+            auv = below(self.state, len(trails))
+            trails[auv] = self._fresh(auv, seen)
         self._move_to(trails)
+
+    def _fresh(self, auv: int, visited: set[int]) -> Trail:
+        """A new route for an AUV, out of nodes that are not visited."""
+        net = self.network
+        size = len(net.nodes)
+        idle = np.array([node for node in range(size) if node not in visited], np.int64)
+        end, limit = size + len(net.limit) + auv, float(net.limit[auv])
+        route = fresh_route(net.leg, net.profit, size + auv, end, limit, idle, self.state)
+        return tuple(route.tolist())
 
     def _move_to(self, trails: Sequence[Trail]) -> None:
         """Make routes the current ones, unless one is late (detours may have saved time)."""
