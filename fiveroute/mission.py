@@ -84,6 +84,16 @@ class MissionPlan:
         """The sub-routes, one per AUV, that Algorithm 1 made its routes of."""
         return () if self.routing is None else self.routing.sub_routes
 
+    def _repr_html_(self) -> str:
+        """A small map and a table, for notebooks."""
+        from html import escape
+
+        from fiveroute.formats.plan_file import PlanFile
+
+        if self.result.plan is None:
+            return f"<div><b>{escape(self.instance.name)}</b>: {self.result.status}</div>"
+        return PlanFile.of(self.instance, self.problem, self.result)._repr_html_()
+
 
 def plan_mission(
     instance: Instance,

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+import numpy as np
 from matplotlib.animation import FuncAnimation, PillowWriter
 from matplotlib.artist import Artist
 from matplotlib.figure import Figure
@@ -18,8 +20,8 @@ from fiveroute.view.scene import Scene
 
 __all__ = ["write_film", "write_picture"]
 
-_FRAMES, _FRAMES_A_SECOND = 72, 9
-_SHADES = 8
+_FRAMES_A_SECOND = 9
+_FILM_DPI, _SHADES = 72, 8
 
 
 def write_picture(scenes: Sequence[Scene], path: Path, *, run: int | None = None) -> None:
@@ -44,7 +46,9 @@ def write_picture(scenes: Sequence[Scene], path: Path, *, run: int | None = None
     _save(path, lambda draft: figure.savefig(draft, dpi=150))
 
 
-def write_film(scenes: Sequence[Scene], path: Path, *, run: int | None = None) -> None:
+def write_film(
+    scenes: Sequence[Scene], path: Path, *, run: int | None = None, frames: int = 72
+) -> None:
     """Draw a mission as a film to a GIF file, whole or not at all.
 
     Parameters
@@ -55,28 +59,45 @@ def write_film(scenes: Sequence[Scene], path: Path, *, run: int | None = None) -
         The file.
     run
         Number of the run; None takes the first one, or the plan where there is none.
+    frames
+        Number of pictures.
     """
     figure = _figure(scenes)
+    figure.set_dpi(_FILM_DPI)
     axes = figure.subplots(1, len(scenes), squeeze=False)[0]
     logs = [_first_run(scene) if run is None else _run_of(scene, run) for scene in scenes]
     legs = [run_legs(scene, log) for scene, log in zip(scenes, logs, strict=True)]
     end = max((leg.done for fleet in legs for own in fleet for leg in own), default=0.0)
     for scene, ax in zip(scenes, axes, strict=True):
         plot_sea(scene, ax, shades=_SHADES)
-        ax.set_title(" ")
-    figure.canvas.draw()
-    figure.set_layout_engine("none")
+        ax.set_title(scene.title, alpha=0.0)  # keeps its place free
+    _freeze(figure)
     still = {ax: set(ax.get_children()) for ax in axes}
 
     def draw(frame: int) -> list[Artist]:
         for scene, fleet, ax in zip(scenes, legs, axes, strict=True):
             for artist in set(ax.get_children()) - still[ax]:
                 artist.remove()
-            draw_fleet(ax, scene, fleet, end * frame / (_FRAMES - 1))
+            draw_fleet(ax, scene, fleet, end * frame / max(frames - 1, 1))
+            ax.set_title(f"{scene.title}: {ax.get_title()}", alpha=1.0)
         return []
 
-    film = FuncAnimation(figure, draw, frames=_FRAMES)
-    _save(path, lambda draft: film.save(draft, writer=PillowWriter(fps=_FRAMES_A_SECOND), dpi=72))
+    film = FuncAnimation(figure, draw, frames=frames)
+    writer = PillowWriter(fps=_FRAMES_A_SECOND)
+    _save(path, lambda draft: film.save(draft, writer=writer, dpi=_FILM_DPI))
+
+
+def _freeze(figure: Figure) -> None:
+    """Put what has been drawn so far into one image, so that frames need not draw it again."""
+    stream = io.BytesIO()
+    figure.savefig(stream, format="rgba", dpi=_FILM_DPI)
+    figure.set_layout_engine("none")
+    width = int(figure.get_size_inches()[0] * _FILM_DPI)
+    image = np.frombuffer(stream.getvalue(), dtype=np.uint8).reshape(-1, width, 4)
+    for ax in figure.axes:
+        for artist in ax.get_children():
+            artist.set_visible(artist is ax.title)
+    figure.figimage(image, zorder=-1)
 
 
 def _first_run(scene: Scene) -> RunLog | None:

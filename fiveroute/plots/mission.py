@@ -90,7 +90,7 @@ def draw_fleet(ax: Axes, scene: Scene, legs: Legs, t: float = math.inf) -> None:
         owner[[node - 1 for node in route]] = auv
     for auv, own in enumerate(legs):
         colour, dash = _COLOURS[auv % len(_COLOURS)], _DASHES[auv // len(_COLOURS) % len(_DASHES)]
-        x, y = _until(track_of(own, scene.shapes, scene.instance.points), t).T / unit
+        x, y = _until(track_of(auv, own, scene.shapes, scene.instance.points), t).T / unit
         ax.plot(x, y, color="white", linewidth=3.4, zorder=3)
         ax.plot(x, y, dash, color=colour, linewidth=1.8, zorder=4, label=f"AUV {auv + 1}")
         if math.isfinite(t):

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fiveroute.errors import InputError
 from fiveroute.instance import Circle, Instance
 from fiveroute.ocean.current_grid import Region
 from fiveroute.ocean.currents import Current, Superposition
@@ -31,6 +32,8 @@ _POINTS, _POINTS_IN_TIME = 176, 88
 """Points of the current along the longer side; where it varies, at every time."""
 
 _TIMES = 13
+
+_FARTHEST = 1e12
 
 _SURROUND = 0.75
 """Half a chart's side, as a share of the region's longer side: maps are wider or higher than it."""
@@ -91,7 +94,13 @@ class Chart:
 
 
 def region_of(instance: Instance, tracks: list[Floats]) -> Region:
-    """The rectangle around stops, obstacles and tracks, with a rim."""
+    """The rectangle around stops, obstacles and tracks, with a rim.
+
+    Raises
+    ------
+    InputError
+        If something is too far away to be drawn.
+    """
     corners = [instance.points, *tracks]
     for shape in instance.ocean.obstacles:
         if isinstance(shape, Circle):
@@ -99,6 +108,11 @@ def region_of(instance: Instance, tracks: list[Floats]) -> Region:
         else:
             corners.append(np.array(shape.polygon))
     points = np.concatenate(corners)
+    if not (np.abs(points) < _FARTHEST).all():
+        raise InputError(
+            f"coordinates of {_FARTHEST:.0e} and more cannot be drawn; correct them",
+            value=float(np.abs(points).max()),
+        )
     return Region.around(points, _MARGIN * float(np.hypot(*np.ptp(points, axis=0))) or 1.0)
 
 

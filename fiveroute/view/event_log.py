@@ -46,6 +46,7 @@ class _Line:
 
 
 _LINE = TypeAdapter(_Line)
+_AT_NODES = ("collect", "discard", "pick_up")
 
 
 class _Names(NamedTuple):
@@ -114,6 +115,8 @@ def _event(content: str, names: _Names) -> tuple[int, Event]:
             value=line.auv,
         )
     if line.node is None:
+        if line.kind in _AT_NODES:
+            raise InputError("is missing; add the node concerned", field="node")
         return line.run, Event(line.t, line.auv, line.kind)
     if line.node not in names.vertices:
         raise InputError(

@@ -45,7 +45,6 @@ def document_of(scenes: Sequence[Scene]) -> dict[str, Any]:
 def _scene(scene: Scene) -> dict[str, Any]:
     instance, plan = scene.instance, scene.plan
     total = sum(node.data for node in instance.nodes)
-    numbers = {key: number for number, key in enumerate(scene.shapes)}
     return {
         "title": scene.title,
         "name": instance.name,
@@ -72,8 +71,8 @@ def _scene(scene: Scene) -> dict[str, Any]:
         "barriers": _barriers(instance),
         "chart": None if scene.chart is None else _chart(scene.chart),
         "shapes": _shapes(scene.shapes),
-        "legs": [_legs(legs, numbers) for legs in scene.legs],
-        "runs": [_run(run, scene, numbers) for run in scene.runs],
+        "legs": _legs(scene.legs, scene.shapes),
+        "runs": [_run(run, scene) for run in scene.runs],
         "notes": list(scene.notes),
     }
 
@@ -125,22 +124,27 @@ def _chart(chart: Chart) -> dict[str, Any]:
 
 def _shapes(shapes: Shapes) -> dict[str, Any]:
     """Waypoints of all paths, one after the other: x, y and the share of the leg's time."""
-    parts = [np.column_stack([shape.points, shape.share]) for shape in shapes.values()]
+    parts = [np.column_stack([shape.points, shape.share]) for shape in shapes.paths]
     first = np.concatenate([[0], np.cumsum([len(part) for part in parts], dtype=np.int64)])
     table = np.concatenate(parts) if parts else np.zeros((0, 3))
     return {"first": first.tolist(), "points": _packed(table.astype("<f4"))}
 
 
-def _legs(legs: Sequence[Leg], numbers: dict[tuple[int, int], int]) -> list[list[float]]:
-    """Head, when the leg is left, reached and done, and the number of its shape or -1."""
-    return [[leg.head, *_rounded(leg[2:]), numbers.get((leg.tail, leg.head), -1)] for leg in legs]
+def _legs(fleet: Sequence[Sequence[Leg]], shapes: Shapes) -> list[list[list[float]]]:
+    """For every AUV: head, when the leg is left, reached and done, and its shape or -1."""
+    return [[_leg(auv, leg, shapes) for leg in legs] for auv, legs in enumerate(fleet)]
 
 
-def _run(run: RunLog, scene: Scene, numbers: dict[tuple[int, int], int]) -> dict[str, Any]:
+def _leg(auv: int, leg: Leg, shapes: Shapes) -> list[float]:
+    place = shapes.place(auv, leg)
+    return [leg.head, *_rounded(leg[2:]), -1 if place is None else place]
+
+
+def _run(run: RunLog, scene: Scene) -> dict[str, Any]:
     legs = sailed_legs(scene.instance, len(scene.routes.routes), run.events)
     return {
         "run": run.run,
-        "legs": [_legs(own, numbers) for own in legs],
+        "legs": _legs(legs, scene.shapes),
         "t": _rounded([event.t for event in run.events]),
         "auv": [event.auv for event in run.events],
         "kind": [event.kind for event in run.events],

@@ -106,13 +106,13 @@ def scene_of(
         raise InputError("is no node of the instance; correct it", field="routes", value=unknown[0])
     current, notes = _current(plan, folder)
     shapes = shapes_of(plan, routes, current)
-    region = region_of(plan.instance, [shape.points for shape in shapes.values()])
+    region = region_of(plan.instance, [shape.points for shape in shapes.paths])
     chart = None
     if current is not None:
         chart = chart_of(current, region, max(plan.durations, default=0.0))
         if len(chart.times) > 1:
             notes.append(_HELD)
-    if runs and shapes:
+    if runs and shapes.paths:
         notes.append(_STRAIGHT)
     return Scene(
         plan,

@@ -8,8 +8,8 @@ plan has none, since a log does not tell where an AUV was between its stops.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -23,7 +23,7 @@ from fiveroute.ocean.currents import Current
 from fiveroute.plan import Plan
 from fiveroute.sea.events import Event
 
-__all__ = ["Leg", "Shape", "planned_legs", "sailed_legs", "shapes_of", "track_of"]
+__all__ = ["Leg", "Shape", "Shapes", "planned_legs", "sailed_legs", "shapes_of", "track_of"]
 
 Floats = NDArray[np.float64]
 
@@ -62,8 +62,28 @@ class Shape:
     share: Floats
 
 
-Shapes = dict[tuple[int, int], Shape]
-"""Paths by tail and head."""
+_ANYBODY = -1
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shapes:
+    """The paths of a plan.
+
+    Parameters
+    ----------
+    paths
+        All of them.
+    places
+        Where among them a path is, by AUV, tail and head.
+    """
+
+    paths: tuple[Shape, ...] = ()
+    places: Mapping[tuple[int, int, int], int] = field(default_factory=dict)
+
+    def place(self, auv: int, leg: Leg) -> int | None:
+        """Where the path of an AUV's leg is: its own, or else another AUV's between these stops."""
+        own = self.places.get((auv, leg.tail, leg.head))
+        return self.places.get((_ANYBODY, leg.tail, leg.head)) if own is None else own
 
 
 def shapes_of(plan: PlanFile, routes: Plan, current: Current | None) -> Shapes:
@@ -78,13 +98,16 @@ def shapes_of(plan: PlanFile, routes: Plan, current: Current | None) -> Shapes:
     current
         The current, which tells how time goes by along a path; None takes a steady pace.
     """
-    shapes: Shapes = {}
+    shapes: list[Shape] = []
+    places: dict[tuple[int, int, int], int] = {}
     ends = len(plan.instance.nodes) + 1
-    for route, paths in zip(routes.routes, plan.tracks or (), strict=False):
+    for auv, (route, paths) in enumerate(zip(routes.routes, plan.tracks or (), strict=False)):
         for leg, points in zip(itertools.pairwise((0, *route, ends)), paths, strict=False):
             times = _cumulative(points, current, plan.instance.fleet.speed)
-            shapes.setdefault(leg, Shape(points, times / (times[-1] or 1.0)))
-    return shapes
+            places[auv, *leg] = len(shapes)
+            places.setdefault((_ANYBODY, *leg), len(shapes))
+            shapes.append(Shape(points, times / (times[-1] or 1.0)))
+    return Shapes(tuple(shapes), places)
 
 
 def _cumulative(points: Floats, current: Current | None, speed: float) -> Floats:
@@ -179,11 +202,12 @@ def sailed_legs(
     return tuple(tuple(own) for own in legs)
 
 
-def track_of(legs: Sequence[Leg], shapes: Shapes, points: Floats) -> Floats:
-    """Positions and times along legs: x and y in metres and t in seconds, shape (k, 3)."""
+def track_of(auv: int, legs: Sequence[Leg], shapes: Shapes, points: Floats) -> Floats:
+    """Positions and times along an AUV's legs: metres and seconds x, y, t, shape (k, 3)."""
     pieces = [np.array([(*points[0], 0.0)])]
     for leg in legs:
-        shape = shapes.get((leg.tail, leg.head)) or _straight(points, leg)
+        place = shapes.place(auv, leg)
+        shape = _straight(points, leg) if place is None else shapes.paths[place]
         times = leg.left + shape.share * (leg.reached - leg.left)
         pieces.append(np.column_stack([shape.points, times]))
         if leg.done > leg.reached:

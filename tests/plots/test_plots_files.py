@@ -4,15 +4,13 @@ import pytest
 from PIL import Image
 
 from fiveroute.errors import InputError
-from fiveroute.plots import files
 from fiveroute.plots.files import write_film, write_picture
 from fiveroute.view.scene import Scene
 
 
-def test_film_has_its_frames(pond: Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(files, "_FRAMES", 4)
+def test_film_has_its_frames(pond: Scene, tmp_path: Path) -> None:
     path = tmp_path / "film.gif"
-    write_film([pond], path)
+    write_film([pond, pond], path, frames=4)
     with Image.open(path) as film:
         assert getattr(film, "n_frames", 1) == 4
 

@@ -1,7 +1,10 @@
 import json
+import math
 from pathlib import Path
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from fiveroute.errors import InputError
 from fiveroute.formats.plan_file import PlanFile
@@ -32,6 +35,7 @@ GOOD = {"run": 0, "t": 1.0, "auv": 0, "kind": "collect", "node": "a"}
         (json.dumps(GOOD).replace("1.0", "NaN"), "line 2"),
         (json.dumps(GOOD | {"speed": 1.0}), "speed: 1.0: is no key of this format"),
         (json.dumps({"run": 0}), "is missing"),
+        (json.dumps({"run": 0, "t": 1.0, "auv": 0, "kind": "discard"}), "node: is missing"),
     ],
 )
 def test_wrong_line_is_named(plan: PlanFile, tmp_path: Path, line: str, said: str) -> None:
@@ -45,3 +49,19 @@ def test_wrong_line_is_named(plan: PlanFile, tmp_path: Path, line: str, said: st
 
 def test_blank_lines_do_not_count(plan: PlanFile) -> None:
     assert len(run_logs(f"\n{json.dumps(GOOD)}\n\n", plan)) == 1
+
+
+@settings(deadline=None, max_examples=200)
+@given(
+    st.text()
+    | st.dictionaries(
+        st.sampled_from(["run", "t", "auv", "kind", "node"]),
+        st.none() | st.booleans() | st.integers() | st.floats() | st.text() | st.just("collect"),
+    ).map(json.dumps)
+)
+def test_any_line_is_an_event_or_an_error_of_ours(plan: PlanFile, line: str) -> None:
+    try:
+        logs = run_logs(f"{json.dumps(GOOD)}\n{line}", plan)
+    except InputError:
+        return
+    assert all(math.isfinite(event.t) for log in logs for event in log.events)

@@ -5,7 +5,7 @@ import pytest
 
 from fiveroute.errors import InputError
 from fiveroute.formats.plan_file import PlanFile
-from fiveroute.instance import Currents, Instance, Ocean
+from fiveroute.instance import Currents, Instance, Ocean, Point
 from fiveroute.view.event_log import read_events
 from fiveroute.view.scene import scene_of
 
@@ -51,3 +51,9 @@ def test_plan_that_ignores_its_current_says_so(plan: PlanFile) -> None:
 def test_unknown_node_is_refused(plan: PlanFile) -> None:
     with pytest.raises(InputError, match="'nobody': is no node"):
         scene_of(replace(plan, routes=(("a", "nobody"), ())))
+
+
+def test_what_is_too_far_away_is_refused(plan: PlanFile) -> None:
+    far = replace(plan.instance, ocean=Ocean(), start=Point(1e300, 0.0))
+    with pytest.raises(InputError, match=r"1e\+300: coordinates .* cannot be drawn"):
+        scene_of(replace(plan, instance=far, paths=None))

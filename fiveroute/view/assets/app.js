@@ -8,6 +8,9 @@ const KINDS = {
   "departures and ends": ["depart", "arrive", "fail"],
 };
 
+/** Seconds that an event is seen while the clock runs. */
+const LIFE = 0.9;
+
 const byId = (id) => document.getElementById(id);
 
 class App {
@@ -16,8 +19,12 @@ class App {
     this.camera = new Camera();
     this.kinds = new Set(Object.values(KINDS).flat());
     this.shows = { arrows: true, routes: true, names: true, events: true };
-    this.player = new Player(() => this.redraw(), () => this.showState());
+    this.player = new Player(
+      () => this.redraw(),
+      () => this.showState(),
+    );
     this.isDark = matchMedia("(prefers-color-scheme: dark)").matches;
+    this.isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.panes = [new Pane(this, scenes, 0, scenes[0].runs.length ? 0 : -1)];
     this.active = this.panes[0];
     this.events = new EventList(byId("events"), (event) => this.go(event));
@@ -51,11 +58,15 @@ class App {
     byId("speed").addEventListener("change", (event) => {
       this.player.speed = Number(event.target.value);
     });
-    byId("which").addEventListener("change", (event) => this.activate(this.panes[Number(event.target.value)]));
+    byId("which").addEventListener("change", (event) =>
+      this.activate(this.panes[Number(event.target.value)]),
+    );
     this.wireTabs();
     this.wireFilters();
     document.addEventListener("keydown", (event) => this.pressed(event));
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => this.setTheme(event.matches));
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) =>
+      this.setTheme(event.matches),
+    );
   }
 
   wireTabs() {
@@ -114,7 +125,8 @@ class App {
   /** What the second map shows first: the other plan, another run, or the plan itself. */
   other() {
     const { which, run } = this.panes[0];
-    if (this.scenes.length > 1) return [1 - which, Math.min(run, this.scenes[1 - which].runs.length - 1)];
+    if (this.scenes.length > 1)
+      return [1 - which, Math.min(run, this.scenes[1 - which].runs.length - 1)];
     return [0, run < 0 ? Math.min(0, this.scenes[0].runs.length - 1) : -1];
   }
 
@@ -124,7 +136,9 @@ class App {
     byId("time").max = String(this.player.end);
     this.player.t = Math.min(this.player.t, this.player.end);
     const which = byId("which");
-    which.replaceChildren(...this.panes.map((pane, k) => element("option", { value: k }, k ? "right" : "left")));
+    which.replaceChildren(
+      ...this.panes.map((pane, k) => element("option", { value: k }, k ? "right" : "left")),
+    );
     which.value = String(this.panes.indexOf(this.active));
     byId("which-label").hidden = this.panes.length < 2;
     this.fillSide();
@@ -142,7 +156,8 @@ class App {
     const { active: pane, theme } = this;
     const { scene, timeline } = pane;
     const what = timeline.isRun ? `${timeline.label} of ${scene.runs.length} runs` : timeline.label;
-    byId("subtitle").textContent = `${scene.routes.length} AUVs · ${scene.ids.length} nodes · ${what} · fiveroute ${scene.version}`;
+    byId("subtitle").textContent =
+      `${scene.routes.length} AUVs · ${scene.ids.length} nodes · ${what} · fiveroute ${scene.version}`;
     this.tables = [];
     if (!byId("panel-fleet").hidden) {
       this.tables.push(fleetTable(byId("panel-fleet"), pane, theme, (auv) => pane.mark(auv, 0)));
@@ -173,7 +188,8 @@ class App {
   step(sign) {
     const events = this.active.timeline.events.filter((event) => this.kinds.has(event.kind));
     const now = this.player.t;
-    const next = sign > 0 ? events.find((event) => event.t > now) : events.findLast((event) => event.t < now);
+    const next =
+      sign > 0 ? events.find((event) => event.t > now) : events.findLast((event) => event.t < now);
     if (next) this.go(next);
   }
 
@@ -181,7 +197,9 @@ class App {
     const canvas = this.panes[0].canvas;
     const [width, height] = [canvas.clientWidth || 800, canvas.clientHeight || 600];
     const regions = this.panes.map((pane) => pane.scene.region);
-    const region = [0, 1, 2, 3].map((k) => Math[k < 2 ? "min" : "max"](...regions.map((one) => one[k])));
+    const region = [0, 1, 2, 3].map((k) =>
+      Math[k < 2 ? "min" : "max"](...regions.map((one) => one[k])),
+    );
     this.camera.fit(region, width, height);
     this.fitScale = this.camera.scale;
     this.redraw();
@@ -220,9 +238,9 @@ class App {
 
   draw() {
     const { t, end, speed } = this.player;
-    const life = 0.9 * speed;
+    const look = { life: LIFE * speed, kinds: this.kinds, isCalm: this.isCalm };
     for (const pane of this.panes) {
-      pane.draw(t, this.theme, this.shows, life);
+      pane.draw(t, this.theme, this.shows, look);
       pane.showFigures();
     }
     drawStrip(byId("strip"), this.panes, end, t, this.theme);
@@ -270,7 +288,12 @@ class App {
     const { player } = this;
     const hundredth = player.end / 100;
     if (event.shiftKey && event.key.startsWith("Arrow")) {
-      const [dx, dy] = { ArrowLeft: [60, 0], ArrowRight: [-60, 0], ArrowUp: [0, 60], ArrowDown: [0, -60] }[event.key];
+      const [dx, dy] = {
+        ArrowLeft: [60, 0],
+        ArrowRight: [-60, 0],
+        ArrowUp: [0, 60],
+        ArrowDown: [0, -60],
+      }[event.key];
       return () => {
         this.camera.pan(dx, dy);
         this.redraw();
@@ -311,9 +334,16 @@ function showKey(host, app) {
       const isOwned = state === "planned" || state === "collected" || state === "dropped";
       drawNode(context, 13, 13, 8, state, isOwned ? auvColour(theme, 0) : theme.quiet, theme);
     });
-    return element("div", {}, element("dt", {}, canvas), element("dd", {}, `${name}: ${MEANING[state]}`));
+    return element(
+      "div",
+      {},
+      element("dt", {}, canvas),
+      element("dd", {}, `${name}: ${MEANING[state]}`),
+    );
   });
-  const fleet = app.active.scene.routes.map((_, auv) => element("div", {}, element("dt", {}, swatch(theme, auv)), element("dd", {}, `AUV ${auv + 1}`)));
+  const fleet = app.active.scene.routes.map((_, auv) =>
+    element("div", {}, element("dt", {}, swatch(theme, auv)), element("dd", {}, `AUV ${auv + 1}`)),
+  );
   const switches = Object.entries(SWITCHES).map(([name, words]) => {
     const box = element("input", { type: "checkbox" });
     box.checked = shows[name];
@@ -325,13 +355,24 @@ function showKey(host, app) {
   });
   host.replaceChildren(
     element("fieldset", {}, element("legend", {}, "Show"), ...switches),
-    element("h2", {}, "Nodes, their area grows with their data"), element("dl", { class: "marks" }, ...marks),
-    element("h2", {}, "Fleet"), element("dl", { class: "marks" }, ...fleet),
-    element("p", {}, "▲ start, ★ destination; over the slider the collected data, with marks where nodes change hands."),
+    element("h2", {}, "Nodes, their area grows with their data"),
+    element("dl", { class: "marks" }, ...marks),
+    element("h2", {}, "Fleet"),
+    element("dl", { class: "marks" }, ...fleet),
+    element(
+      "p",
+      {},
+      "▲ start, ★ destination; over the slider the collected data, with marks where nodes change hands.",
+    ),
   );
 }
 
-const SWITCHES = { arrows: "arrows of the current", routes: "planned routes", names: "names of nodes", events: "events" };
+const SWITCHES = {
+  arrows: "arrows of the current",
+  routes: "planned routes",
+  names: "names of nodes",
+  events: "events",
+};
 
 const MEANING = {
   planned: "an AUV means to visit it",

@@ -14,7 +14,10 @@ class Camera {
     this.region = region;
     this.x = (west + east) / 2;
     this.y = (south + north) / 2;
-    this.scale = Math.min(width / Math.max(east - west, 1e-9), height / Math.max(north - south, 1e-9));
+    this.scale = Math.min(
+      width / Math.max(east - west, 1e-9),
+      height / Math.max(north - south, 1e-9),
+    );
   }
 
   zoomAt(factor, dx, dy) {

@@ -10,7 +10,8 @@ function speedImage(chart, theme, frame) {
   for (let i = 0; i < rows; i += 1) {
     for (let j = 0; j < columns; j += 1) {
       const at = 2 * ((frame * rows + i) * columns + j);
-      const shade = shades[Math.min(Math.round(Math.hypot(uv[at], uv[at + 1]) * 255 / 32767), 255)];
+      const shade =
+        shades[Math.min(Math.round((Math.hypot(uv[at], uv[at + 1]) * 255) / 32767), 255)];
       image.data.set([...shade, 255], 4 * ((rows - 1 - i) * columns + j));
     }
   }
@@ -58,7 +59,9 @@ function drawGrid(context, view, image, grid, isSmooth) {
 function drawArrows(context, view, chart, theme, t) {
   const spacing = 2 ** Math.ceil(Math.log2(34 / view.scale));
   const longest = 0.8 * spacing * view.scale;
-  const first = [view.wx(0), view.wy(view.height)].map((value) => Math.floor(value / spacing) * spacing);
+  const first = [view.wx(0), view.wy(view.height)].map(
+    (value) => Math.floor(value / spacing) * spacing,
+  );
   context.strokeStyle = context.fillStyle = theme.arrow;
   context.lineWidth = 1.2;
   context.lineCap = "round";

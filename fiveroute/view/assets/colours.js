@@ -6,7 +6,13 @@ const DASHES = [[], [9, 4], [2, 4], [9, 4, 2, 4]];
 const THEMES = {
   light: {
     auvs: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"],
-    ramp: [[248, 251, 253], [221, 232, 241], [184, 205, 222], [141, 172, 198], [99, 136, 170]],
+    ramp: [
+      [248, 251, 253],
+      [221, 232, 241],
+      [184, 205, 222],
+      [141, 172, 198],
+      [99, 136, 170],
+    ],
     water: "#eef4f8",
     arrow: "rgba(38, 70, 100, 0.5)",
     land: "#d9cdb4",
@@ -21,7 +27,13 @@ const THEMES = {
   },
   dark: {
     auvs: ["#3d9be0", "#f07d2b", "#12b98a", "#e29bc3", "#f2b134", "#8fd3ff", "#ffffff"],
-    ramp: [[13, 22, 32], [19, 36, 52], [27, 53, 75], [39, 75, 103], [58, 103, 134]],
+    ramp: [
+      [13, 22, 32],
+      [19, 36, 52],
+      [27, 53, 75],
+      [39, 75, 103],
+      [58, 103, 134],
+    ],
     water: "#111c27",
     arrow: "rgba(176, 208, 232, 0.42)",
     land: "#4a4334",
@@ -49,7 +61,9 @@ function auvDash(theme, auv) {
 function rampColour(ramp, share) {
   const place = Math.min(Math.max(share, 0), 1) * (ramp.length - 1);
   const low = Math.min(Math.floor(place), ramp.length - 2);
-  return ramp[low].map((value, k) => Math.round(value + (place - low) * (ramp[low + 1][k] - value)));
+  return ramp[low].map((value, k) =>
+    Math.round(value + (place - low) * (ramp[low + 1][k] - value)),
+  );
 }
 
 function parseHex(hex) {

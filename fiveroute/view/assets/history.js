@@ -57,7 +57,8 @@ function doingAt(scene, timeline, auv, t) {
   if (fate.kind === "arrive" && t >= fate.t) return { doing: "home", node: 0 };
   const home = scene.ids.length + 1;
   for (const [head, , reached, done] of timeline.legs[auv]) {
-    if (t < reached) return { doing: head === home ? "going home" : "sailing to", node: head === home ? 0 : head };
+    if (t < reached)
+      return { doing: head === home ? "going home" : "sailing to", node: head === home ? 0 : head };
     if (t < done) return { doing: "collecting", node: head };
   }
   return { doing: "under way", node: 0 };

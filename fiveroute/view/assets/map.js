@@ -11,8 +11,11 @@ function traceTrack(context, view, track, until, tolerance = 0.4) {
   const to = (x, y) => {
     const [sx, sy] = [view.sx(x), view.sy(y)];
     const isIn = sx > -rim && sy > -rim && sx < view.width + rim && sy < view.height + rim;
-    const crosses = Math.min(sx, px) < view.width + rim && Math.max(sx, px) > -rim
-      && Math.min(sy, py) < view.height + rim && Math.max(sy, py) > -rim;
+    const crosses =
+      Math.min(sx, px) < view.width + rim &&
+      Math.max(sx, px) > -rim &&
+      Math.min(sy, py) < view.height + rim &&
+      Math.max(sy, py) > -rim;
     if (!isFirst && (isIn || wasIn || crosses)) {
       if (!wasIn) context.moveTo(px, py);
       context.lineTo(sx, sy);
@@ -80,8 +83,15 @@ function drawChevrons(context, view, legs, track, colour) {
 /** A triangle that points along an angle on the screen. */
 function drawHead(context, x, y, angle, size) {
   context.beginPath();
-  for (const [turn, reach] of [[0, 1.3], [2.5, 1], [-2.5, 1]]) {
-    context.lineTo(x + reach * size * Math.cos(angle + turn), y + reach * size * Math.sin(angle + turn));
+  for (const [turn, reach] of [
+    [0, 1.3],
+    [2.5, 1],
+    [-2.5, 1],
+  ]) {
+    context.lineTo(
+      x + reach * size * Math.cos(angle + turn),
+      y + reach * size * Math.sin(angle + turn),
+    );
   }
   context.closePath();
   context.fill();
@@ -109,7 +119,15 @@ function drawNodes(context, view, scene, timeline, theme, t) {
     const [x, y] = [view.sx(scene.points[2 * node]), view.sy(scene.points[2 * node + 1])];
     if (x < -20 || y < -20 || x > view.width + 20 || y > view.height + 20) continue;
     const { state, auv } = stateAt(timeline.changes[node - 1], t);
-    drawNode(context, x, y, nodeRadius(scene, node, view), state, auv < 0 ? theme.quiet : auvColour(theme, auv), theme);
+    drawNode(
+      context,
+      x,
+      y,
+      nodeRadius(scene, node, view),
+      state,
+      auv < 0 ? theme.quiet : auvColour(theme, auv),
+      theme,
+    );
   }
 }
 
@@ -136,7 +154,7 @@ function drawNode(context, x, y, radius, state, colour, theme) {
     context.stroke();
   } else if (state === "idle") {
     context.beginPath();
-    context.arc(x, y, radius - 1, Math.PI / 4, 5 * Math.PI / 4);
+    context.arc(x, y, radius - 1, Math.PI / 4, (5 * Math.PI) / 4);
     context.fillStyle = theme.quiet;
     context.fill();
   }
@@ -159,7 +177,10 @@ function drawNames(context, view, scene, theme) {
     const text = scene.ids[node - 1].slice(0, 24);
     const left = x + nodeRadius(scene, node, view) + 3;
     const box = [left, y - 6, left + context.measureText(text).width, y + 6];
-    if (taken.some((one) => box[0] < one[2] && one[0] < box[2] && box[1] < one[3] && one[1] < box[3])) continue;
+    if (
+      taken.some((one) => box[0] < one[2] && one[0] < box[2] && box[1] < one[3] && one[1] < box[3])
+    )
+      continue;
     taken.push(box);
     haloedText(context, text, left, y, theme.quiet, theme.halo);
   }
@@ -178,13 +199,16 @@ function haloedText(context, text, x, y, colour, halo) {
 function drawEnds(context, view, scene, theme) {
   const last = scene.points.length - 2;
   const place = (k) => [view.sx(scene.points[k]), view.sy(scene.points[k + 1])];
-  const shapes = [[place(0), 3, 0, 10], [place(last), 5, 0.45, 11]];
+  const shapes = [
+    [place(0), 3, 0, 10],
+    [place(last), 5, 0.45, 11],
+  ];
   for (const [[x, y], corners, inner, size] of shapes) {
     context.beginPath();
     const count = inner ? 2 * corners : corners;
     for (let k = 0; k < count; k += 1) {
       const reach = inner && k % 2 ? inner * size : size;
-      const angle = -Math.PI / 2 + 2 * Math.PI * k / count;
+      const angle = -Math.PI / 2 + (2 * Math.PI * k) / count;
       context.lineTo(x + reach * Math.cos(angle), y + reach * Math.sin(angle));
     }
     context.closePath();
@@ -220,7 +244,14 @@ function drawAuvs(context, view, timeline, theme, t, marked) {
     context.font = "600 12px system-ui, sans-serif";
     context.textAlign = "center";
     context.textBaseline = "middle";
-    haloedText(context, String(auv + 1), x - 15 * Math.cos(angle), y - 15 * Math.sin(angle), theme.ink, theme.halo);
+    haloedText(
+      context,
+      String(auv + 1),
+      x - 15 * Math.cos(angle),
+      y - 15 * Math.sin(angle),
+      theme.ink,
+      theme.halo,
+    );
   });
 }
 
@@ -246,11 +277,11 @@ function drawRing(context, x, y, radius, colour, width, alpha) {
 }
 
 /** Events of the last moment: each grows or shrinks and fades over `life` seconds of the mission. */
-function drawEvents(context, view, scene, timeline, theme, t, life, kinds) {
+function drawEvents(context, view, scene, timeline, theme, t, { life, kinds, isCalm }) {
   for (let k = countUpTo(timeline.times, t) - 1; k >= 0 && timeline.times[k] > t - life; k -= 1) {
     const event = timeline.events[k];
     if (!kinds.has(event.kind)) continue;
-    const age = (t - event.t) / life;
+    const age = isCalm ? 0.3 : (t - event.t) / life;
     const place = event.node
       ? { x: scene.points[2 * event.node], y: scene.points[2 * event.node + 1] }
       : positionAt(timeline.tracks[event.auv], event.t);
@@ -263,7 +294,7 @@ function drawEvent(context, x, y, event, age, theme) {
   const fade = 1 - age;
   if (event.kind === "send") {
     for (const lag of [0, 0.25]) {
-      if (age > lag) drawRing(context, x, y, 10 + 46 * (age - lag), colour, 2, 0.8 * fade);
+      if (age >= lag) drawRing(context, x, y, 10 + 46 * (age - lag), colour, 2, 0.8 * fade);
     }
   } else if (event.kind === "receive") {
     drawRing(context, x, y, 20 - 10 * age, colour, 1.5, 0.6 * fade);
@@ -274,8 +305,23 @@ function drawEvent(context, x, y, event, age, theme) {
   } else if (event.kind === "manoeuvre") {
     label(context, "avoids", x, y - 18 - 8 * age, theme, fade);
   } else if (event.kind === "discard" || event.kind === "pick_up") {
-    drawRing(context, x, y, event.kind === "discard" ? 12 + 12 * age : 26 - 14 * age, colour, 3, fade);
-    label(context, event.kind === "discard" ? "dropped" : `to AUV ${event.auv + 1}`, x, y - 18 - 10 * age, theme, fade);
+    drawRing(
+      context,
+      x,
+      y,
+      event.kind === "discard" ? 12 + 12 * age : 26 - 14 * age,
+      colour,
+      3,
+      fade,
+    );
+    label(
+      context,
+      event.kind === "discard" ? "dropped" : `to AUV ${event.auv + 1}`,
+      x,
+      y - 18 - 10 * age,
+      theme,
+      fade,
+    );
   }
 }
 
@@ -320,7 +366,9 @@ function drawFurniture(context, view, scene, theme) {
 function drawRamp(context, view, chart, theme) {
   const [wide, x, y] = [100, view.width - 174, view.height - 24];
   const ramp = context.createLinearGradient(x, 0, x + wide, 0);
-  theme.ramp.forEach((colour, k) => ramp.addColorStop(k / (theme.ramp.length - 1), `rgb(${colour})`));
+  theme.ramp.forEach((colour, k) =>
+    ramp.addColorStop(k / (theme.ramp.length - 1), `rgb(${colour})`),
+  );
   context.fillStyle = ramp;
   context.fillRect(x, y, wide, 8);
   context.strokeStyle = theme.quiet;
@@ -328,5 +376,12 @@ function drawRamp(context, view, chart, theme) {
   context.strokeRect(x - 0.5, y - 0.5, wide + 1, 9);
   context.textAlign = "right";
   haloedText(context, "current 0", x - 6, y + 8, theme.ink, theme.halo);
-  haloedText(context, `${chart.fastest.toFixed(2)} m/s`, view.width - 12, y + 8, theme.ink, theme.halo);
+  haloedText(
+    context,
+    `${chart.fastest.toFixed(2)} m/s`,
+    view.width - 12,
+    y + 8,
+    theme.ink,
+    theme.halo,
+  );
 }

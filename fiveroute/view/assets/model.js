@@ -44,7 +44,12 @@ function planTimeline(scene) {
 }
 
 function runTimeline(scene, run) {
-  const events = run.t.map((t, k) => ({ t, auv: run.auv[k], kind: run.kind[k], node: run.node[k] }));
+  const events = run.t.map((t, k) => ({
+    t,
+    auv: run.auv[k],
+    kind: run.kind[k],
+    node: run.node[k],
+  }));
   return finished(scene, `run ${run.run}`, run.legs, events, true);
 }
 

@@ -35,7 +35,7 @@ const WINDS = ["N", "NE", "E", "SE", "S", "SW", "W", "NW"];
 
 /** Where a velocity leads to, as a wind of the compass and degrees clockwise from north. */
 function bearing(u, v) {
-  const degrees = (Math.atan2(u, v) * 180 / Math.PI + 360) % 360;
+  const degrees = ((Math.atan2(u, v) * 180) / Math.PI + 360) % 360;
   return `${WINDS[Math.round(degrees / 45) % 8]} (${String(Math.round(degrees) % 360).padStart(3, "0")}°)`;
 }
 

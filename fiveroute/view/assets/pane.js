@@ -9,11 +9,18 @@ class Pane {
     this.sea = document.createElement("canvas");
     this.seaKey = "";
     this.canvas = element("canvas", { tabindex: 0, role: "img" });
-    this.choice = element("select", { "aria-label": "What this map shows", onchange: () => this.chosen() });
+    this.choice = element("select", {
+      "aria-label": "What this map shows",
+      onchange: () => this.chosen(),
+    });
     this.figures = element("dl", { class: "figures" });
     this.notes = element("details", { class: "notes" });
-    this.article = element("article", { class: "pane" },
-      element("header", {}, this.choice, this.figures), element("div", { class: "map" }, this.canvas, this.notes));
+    this.article = element(
+      "article",
+      { class: "pane" },
+      element("header", {}, this.choice, this.figures),
+      element("div", { class: "map" }, this.canvas, this.notes),
+    );
     this.fillChoice();
     this.choose(which, run);
     this.listen();
@@ -43,11 +50,17 @@ class Pane {
     this.seaKey = "";
     const { notes } = this.scene;
     const count = notes.length === 1 ? "1 note" : `${notes.length} notes`;
-    this.notes.replaceChildren(element("summary", {}, count), ...notes.map((note) => element("p", {}, note)));
+    this.notes.replaceChildren(
+      element("summary", {}, count),
+      ...notes.map((note) => element("p", {}, note)),
+    );
     this.notes.hidden = !notes.length;
     this.notes.open = notes.some((note) => note.startsWith("The current is not drawn"));
     const fleet = `${this.scene.routes.length} AUVs, ${this.scene.ids.length} nodes`;
-    this.canvas.setAttribute("aria-label", `Map of ${this.scene.title}: ${this.timeline.label}, ${fleet}. The tables tell the same.`);
+    this.canvas.setAttribute(
+      "aria-label",
+      `Map of ${this.scene.title}: ${this.timeline.label}, ${fleet}. The tables tell the same.`,
+    );
   }
 
   /** Nodes and data that an AUV has collected so far. */
@@ -72,23 +85,43 @@ class Pane {
     const now = collectedAt(timeline, this.t);
     const rate = (data) => (scene.total > 0 ? percent(data / scene.total) : "all");
     const figures = [
-      ["collected", `${amount(now)} of ${amount(scene.total)}`, "Data collected so far, of all there is"],
+      [
+        "collected",
+        `${amount(now)} of ${amount(scene.total)}`,
+        "Data collected so far, of all there is",
+      ],
       ["completion", rate(now), "Share of all data collected so far"],
-      ["plan", `${amount(scene.objective)} (${rate(scene.objective)})`, `${scene.status}, by ${scene.method}${scene.seed === null ? "" : `, seed ${scene.seed}`}`],
+      [
+        "plan",
+        `${amount(scene.objective)} (${rate(scene.objective)})`,
+        `${scene.status}, by ${scene.method}${scene.seed === null ? "" : `, seed ${scene.seed}`}`,
+      ],
       ["bound", scene.bound === null ? "none" : amount(scene.bound), "No plan can collect more"],
-      ["gap", scene.gap === null ? "unknown" : scene.status === "optimal" ? "0 (proved)" : percent(scene.gap), "(bound − plan) / plan"],
+      [
+        "gap",
+        scene.gap === null
+          ? "unknown"
+          : scene.status === "optimal"
+            ? "0 (proved)"
+            : percent(scene.gap),
+        "(bound − plan) / plan",
+      ],
     ];
     const text = figures.map((figure) => figure[1]).join("|");
     if (text === this.shownFigures) return;
     this.shownFigures = text;
-    this.figures.replaceChildren(...figures.map(([name, value, title]) => element("div", { title }, element("dt", {}, name), element("dd", {}, value))));
+    this.figures.replaceChildren(
+      ...figures.map(([name, value, title]) =>
+        element("div", { title }, element("dt", {}, name), element("dd", {}, value)),
+      ),
+    );
   }
 
-  draw(t, theme, shows, life) {
+  draw(t, theme, shows, look) {
     this.t = t;
     const { context, width, height } = sized(this.canvas);
     if (!width || !height) return;
-    const view = this.view = this.app.camera.view(width, height);
+    const view = (this.view = this.app.camera.view(width, height));
     view.least = this.app.fitScale;
     this.drawStill(view, theme, shows, width, height);
     context.drawImage(this.sea, 0, 0, width, height);
@@ -97,7 +130,8 @@ class Pane {
     if (shows.names) drawNames(context, view, this.scene, theme);
     drawEnds(context, view, this.scene, theme);
     if (this.marked.node) this.drawMarkedNode(context, view, theme);
-    if (shows.events) drawEvents(context, view, this.scene, this.timeline, theme, t, life, this.app.kinds);
+    if (shows.events)
+      drawEvents(context, view, this.scene, this.timeline, theme, t, look);
     drawAuvs(context, view, this.timeline, theme, t, this.marked.auv);
     drawFurniture(context, view, this.scene, theme);
   }
@@ -106,7 +140,20 @@ class Pane {
   drawStill(view, theme, shows, width, height) {
     const frame = this.scene.chart ? frameAt(this.scene.chart, this.t) : 0;
     const { camera } = this.app;
-    const key = [camera.x, camera.y, camera.scale, width, height, theme.water, frame, shows.arrows, shows.routes, window.devicePixelRatio, this.which, this.run].join();
+    const key = [
+      camera.x,
+      camera.y,
+      camera.scale,
+      width,
+      height,
+      theme.water,
+      frame,
+      shows.arrows,
+      shows.routes,
+      window.devicePixelRatio,
+      this.which,
+      this.run,
+    ].join();
     if (key === this.seaKey) return;
     this.seaKey = key;
     [this.sea.width, this.sea.height] = [this.canvas.width, this.canvas.height];
@@ -129,14 +176,26 @@ class Pane {
     let moved = 0;
     const spread = () => {
       const [a, b] = [...fingers.values()];
-      return { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, size: Math.hypot(a.x - b.x, a.y - b.y) || 1 };
+      return {
+        x: (a.x + b.x) / 2,
+        y: (a.y + b.y) / 2,
+        size: Math.hypot(a.x - b.x, a.y - b.y) || 1,
+      };
     };
-    canvas.addEventListener("wheel", (event) => {
-      event.preventDefault();
-      const { dx, dy } = this.fromCentre(event);
-      app.camera.zoomAt(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : event.ctrlKey ? 0.01 : 0.0016)), dx, dy);
-      app.redraw();
-    }, { passive: false });
+    canvas.addEventListener(
+      "wheel",
+      (event) => {
+        event.preventDefault();
+        const { dx, dy } = this.fromCentre(event);
+        app.camera.zoomAt(
+          Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : event.ctrlKey ? 0.01 : 0.0016)),
+          dx,
+          dy,
+        );
+        app.redraw();
+      },
+      { passive: false },
+    );
     canvas.addEventListener("pointerdown", (event) => {
       canvas.setPointerCapture(event.pointerId);
       fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
@@ -164,7 +223,8 @@ class Pane {
       app.redraw();
     });
     const release = (event) => {
-      if (fingers.delete(event.pointerId) && event.type === "pointerup" && moved < 4) this.click(event);
+      if (fingers.delete(event.pointerId) && event.type === "pointerup" && moved < 4)
+        this.click(event);
     };
     canvas.addEventListener("pointerup", release);
     canvas.addEventListener("pointercancel", release);
@@ -179,7 +239,10 @@ class Pane {
 
   fromCentre(event) {
     const box = this.canvas.getBoundingClientRect();
-    return { dx: event.clientX - box.left - box.width / 2, dy: event.clientY - box.top - box.height / 2 };
+    return {
+      dx: event.clientX - box.left - box.width / 2,
+      dy: event.clientY - box.top - box.height / 2,
+    };
   }
 
   place(event) {
@@ -198,7 +261,10 @@ class Pane {
     });
     if (best.auv >= 0) return best;
     for (let node = 1; node <= scene.ids.length; node += 1) {
-      const distance = Math.hypot(view.sx(scene.points[2 * node]) - px, view.sy(scene.points[2 * node + 1]) - py);
+      const distance = Math.hypot(
+        view.sx(scene.points[2 * node]) - px,
+        view.sy(scene.points[2 * node + 1]) - py,
+      );
       if (distance < best.distance) best = { distance, auv: -1, node };
     }
     return best;
@@ -221,14 +287,23 @@ class Pane {
     if (!this.view) return;
     const [px, py] = this.place(event);
     const found = this.under(px, py);
-    const lines = found.auv >= 0 ? this.auvLines(found.auv) : found.node ? this.nodeLines(found.node) : this.seaLines(px, py);
+    const lines =
+      found.auv >= 0
+        ? this.auvLines(found.auv)
+        : found.node
+          ? this.nodeLines(found.node)
+          : this.seaLines(px, py);
     this.app.showTip(event.clientX, event.clientY, lines);
   }
 
   auvLines(auv) {
     const { doing, node } = doingAt(this.scene, this.timeline, auv, this.t);
     const { count, sum } = this.dataOf(auv);
-    return [`AUV ${auv + 1}`, `${doing}${node ? ` ${this.scene.ids[node - 1]}` : ""}`, `${count} nodes, ${amount(sum)} data so far`];
+    return [
+      `AUV ${auv + 1}`,
+      `${doing}${node ? ` ${this.scene.ids[node - 1]}` : ""}`,
+      `${count} nodes, ${amount(sum)} data so far`,
+    ];
   }
 
   nodeLines(node) {
@@ -236,7 +311,11 @@ class Pane {
     const { scene } = this;
     const who = auv < 0 ? "" : `, AUV ${auv + 1}`;
     const when = t > 0 ? ` at ${clock(t)}` : "";
-    return [scene.ids[node - 1], `data ${amount(scene.data[node - 1])}, service ${amount(scene.service[node - 1])} s`, `${STATES[state]}${who}${when}`];
+    return [
+      scene.ids[node - 1],
+      `data ${amount(scene.data[node - 1])}, service ${amount(scene.service[node - 1])} s`,
+      `${STATES[state]}${who}${when}`,
+    ];
   }
 
   seaLines(px, py) {
@@ -248,7 +327,8 @@ class Pane {
     const what = maskAt(chart, x, y);
     const velocity = chart && !what ? velocityAt(chart, x, y, this.t) : null;
     if (what) lines.push(what === LAND ? "land" : "no data");
-    if (velocity) lines.push(`current ${Math.hypot(...velocity).toFixed(2)} m/s to ${bearing(...velocity)}`);
+    if (velocity)
+      lines.push(`current ${Math.hypot(...velocity).toFixed(2)} m/s to ${bearing(...velocity)}`);
     return lines;
   }
 }

@@ -5,8 +5,11 @@ const STRIP_RIM = 8;
 function drawStrip(canvas, panes, end, t, theme) {
   const { context, width, height } = sized(canvas);
   context.clearRect(0, 0, width, height);
-  const most = Math.max(...panes.map((pane) => Math.max(pane.scene.bound || 0, pane.scene.objective)), 1e-12);
-  const x = (time) => STRIP_RIM + (width - 2 * STRIP_RIM) * time / (end || 1);
+  const most = Math.max(
+    ...panes.map((pane) => Math.max(pane.scene.bound || 0, pane.scene.objective)),
+    1e-12,
+  );
+  const x = (time) => STRIP_RIM + ((width - 2 * STRIP_RIM) * time) / (end || 1);
   const y = (data) => height - 4 - (height - 10) * Math.min(data / most, 1);
   panes.forEach((pane, k) => {
     const { collected } = pane.timeline;
@@ -42,7 +45,12 @@ function drawMarks(context, timeline, x, height, theme) {
   for (const event of timeline.events) {
     if (!MARKED.has(event.kind)) continue;
     context.fillStyle = event.kind === "fail" ? theme.alarm : auvColour(theme, event.auv);
-    context.fillRect(x(event.t) - 1, event.kind === "fail" ? 0 : height - 4, 2, event.kind === "fail" ? height : 4);
+    context.fillRect(
+      x(event.t) - 1,
+      event.kind === "fail" ? 0 : height - 4,
+      2,
+      event.kind === "fail" ? height : 4,
+    );
   }
 }
 

@@ -35,25 +35,44 @@ class Table {
     this.order = { column: -1, sign: 1 };
     this.cells = new Map();
     this.heads = columns.map((column, k) => {
-      const button = element("button", { type: "button", onclick: () => this.sort(k), title: column.tip }, column.name);
-      return element("th", { scope: "col", "aria-sort": "none", class: column.isText ? "" : "number" }, button);
+      const button = element(
+        "button",
+        { type: "button", onclick: () => this.sort(k), title: column.tip },
+        column.name,
+      );
+      return element(
+        "th",
+        { scope: "col", "aria-sort": "none", class: column.isText ? "" : "number" },
+        button,
+      );
     });
     this.body = element("tbody");
     for (const row of rows) this.body.append(this.line(row, onPick));
-    const table = element("table", {}, element("caption", { class: "unseen" }, caption),
-      element("thead", {}, element("tr", {}, ...this.heads)), this.body);
+    const table = element(
+      "table",
+      {},
+      element("caption", { class: "unseen" }, caption),
+      element("thead", {}, element("tr", {}, ...this.heads)),
+      this.body,
+    );
     host.replaceChildren(table);
     this.update();
   }
 
   line(row, onPick) {
-    const cells = this.columns.map((column) => element("td", { class: column.isText ? "" : "number" }));
+    const cells = this.columns.map((column) =>
+      element("td", { class: column.isText ? "" : "number" }),
+    );
     this.cells.set(row, cells);
     const pick = () => onPick(row);
     const keyed = (event) => {
       if (event.key === "Enter") pick();
     };
-    return element("tr", { tabindex: 0, "data-row": row, onclick: pick, onkeydown: keyed }, ...cells);
+    return element(
+      "tr",
+      { tabindex: 0, "data-row": row, onclick: pick, onkeydown: keyed },
+      ...cells,
+    );
   }
 
   /** Put what has changed into the cells. */
@@ -82,7 +101,9 @@ class Table {
     this.order = { column, sign };
     const { value } = this.columns[column];
     const keys = new Map(this.rows.map((row) => [row, value(row)]));
-    const sorted = this.rows.slice().sort((a, b) => sign * compareValues(keys.get(a), keys.get(b)) || a - b);
+    const sorted = this.rows
+      .slice()
+      .sort((a, b) => sign * compareValues(keys.get(a), keys.get(b)) || a - b);
     const lines = new Map([...this.body.rows].map((line) => [Number(line.dataset.row), line]));
     this.body.append(...sorted.map((row) => lines.get(row)));
     this.heads.forEach((head, k) => {
@@ -93,7 +114,7 @@ class Table {
 
 function compareValues(a, b) {
   if (typeof a === "string") return a.localeCompare(b, "en", { numeric: true });
-  return (a === b ? 0 : a < b ? -1 : 1);
+  return a === b ? 0 : a < b ? -1 : 1;
 }
 
 function fleetTable(host, pane, theme, onPick) {
@@ -103,27 +124,64 @@ function fleetTable(host, pane, theme, onPick) {
   const data = (auv) => pane.dataOf(auv);
   const used = (auv) => (done(auv).kind === "arrive" ? done(auv).t : NaN);
   const budget = (auv) => (scene.budgets ? scene.budgets[auv] : Infinity);
-  return new Table(host, "AUVs", [
-    {
-      name: "AUV",
-      isText: true,
-      value: (auv) => auv,
-      show: (auv) => ({ text: `${auv} ${theme.water}`, parts: [swatch(theme, auv), ` ${auv + 1}`] }),
-    },
-    {
-      name: "Now",
-      isText: true,
-      value: (auv) => now(auv).doing,
-      show: (auv) => `${DOING[now(auv).doing]}${now(auv).node ? ` ${scene.ids[now(auv).node - 1]}` : ""}`,
-    },
-    { name: "Nodes", value: (auv) => data(auv).count, show: (auv) => `${data(auv).count}/${scene.routes[auv].length}`, tip: "Collected so far, of those planned" },
-    { name: "Data", value: (auv) => data(auv).sum, show: (auv) => amount(data(auv).sum), tip: "Collected so far" },
-    { name: "Home", value: used, show: (auv) => homeText(done(auv), budget(auv)), tip: "When it reaches the destination" },
-    { name: "Budget", value: budget, show: (auv) => (Number.isFinite(budget(auv)) ? clock(budget(auv)) : "none"), tip: "Endurance" },
-  ], scene.routes.map((_, auv) => auv), onPick);
+  return new Table(
+    host,
+    "AUVs",
+    [
+      {
+        name: "AUV",
+        isText: true,
+        value: (auv) => auv,
+        show: (auv) => ({
+          text: `${auv} ${theme.water}`,
+          parts: [swatch(theme, auv), ` ${auv + 1}`],
+        }),
+      },
+      {
+        name: "Now",
+        isText: true,
+        value: (auv) => now(auv).doing,
+        show: (auv) =>
+          `${DOING[now(auv).doing]}${now(auv).node ? ` ${scene.ids[now(auv).node - 1]}` : ""}`,
+      },
+      {
+        name: "Nodes",
+        value: (auv) => data(auv).count,
+        show: (auv) => `${data(auv).count}/${scene.routes[auv].length}`,
+        tip: "Collected so far, of those planned",
+      },
+      {
+        name: "Data",
+        value: (auv) => data(auv).sum,
+        show: (auv) => amount(data(auv).sum),
+        tip: "Collected so far",
+      },
+      {
+        name: "Home",
+        value: used,
+        show: (auv) => homeText(done(auv), budget(auv)),
+        tip: "When it reaches the destination",
+      },
+      {
+        name: "Budget",
+        value: budget,
+        show: (auv) => (Number.isFinite(budget(auv)) ? clock(budget(auv)) : "none"),
+        tip: "Endurance",
+      },
+    ],
+    scene.routes.map((_, auv) => auv),
+    onPick,
+  );
 }
 
-const DOING = { "sailing to": "to", "going home": "to home", collecting: "at", "under way": "under way", home: "home", failed: "failed" };
+const DOING = {
+  "sailing to": "to",
+  "going home": "to home",
+  collecting: "at",
+  "under way": "under way",
+  home: "home",
+  failed: "failed",
+};
 
 function homeText(fate, budget) {
   if (fate.kind === "fail") return `failed ${clock(fate.t)}`;
@@ -134,22 +192,49 @@ function homeText(fate, budget) {
 function nodeTable(host, pane, theme, onPick) {
   const { scene } = pane;
   const now = (row) => stateAt(pane.timeline.changes[row - 1], pane.t);
-  const final = (row) => pane.timeline.changes[row - 1].find((change) => change.state === "collected");
-  return new Table(host, "Nodes", [
-    { name: "Node", isText: true, value: (row) => scene.ids[row - 1], show: (row) => scene.ids[row - 1] },
-    { name: "Data", value: (row) => scene.data[row - 1], show: (row) => amount(scene.data[row - 1]) },
-    { name: "State", isText: true, value: (row) => now(row).state, show: (row) => STATES[now(row).state] },
-    {
-      name: "AUV",
-      isText: true,
-      value: (row) => now(row).auv,
-      show: (row) => {
-        const { auv } = now(row);
-        return auv < 0 ? "" : { text: `${auv} ${theme.water}`, parts: [swatch(theme, auv), ` ${auv + 1}`] };
+  const final = (row) =>
+    pane.timeline.changes[row - 1].find((change) => change.state === "collected");
+  return new Table(
+    host,
+    "Nodes",
+    [
+      {
+        name: "Node",
+        isText: true,
+        value: (row) => scene.ids[row - 1],
+        show: (row) => scene.ids[row - 1],
       },
-    },
-    { name: "Collected", value: (row) => (final(row) ? final(row).t : Infinity), show: (row) => (final(row) ? clock(final(row).t) : "never") },
-  ], scene.ids.map((_, k) => k + 1), onPick);
+      {
+        name: "Data",
+        value: (row) => scene.data[row - 1],
+        show: (row) => amount(scene.data[row - 1]),
+      },
+      {
+        name: "State",
+        isText: true,
+        value: (row) => now(row).state,
+        show: (row) => STATES[now(row).state],
+      },
+      {
+        name: "AUV",
+        isText: true,
+        value: (row) => now(row).auv,
+        show: (row) => {
+          const { auv } = now(row);
+          return auv < 0
+            ? ""
+            : { text: `${auv} ${theme.water}`, parts: [swatch(theme, auv), ` ${auv + 1}`] };
+        },
+      },
+      {
+        name: "Collected",
+        value: (row) => (final(row) ? final(row).t : Infinity),
+        show: (row) => (final(row) ? clock(final(row).t) : "never"),
+      },
+    ],
+    scene.ids.map((_, k) => k + 1),
+    onPick,
+  );
 }
 
 const ROW_HEIGHT = 27;
@@ -188,14 +273,25 @@ class EventList {
   draw() {
     const first = Math.max(0, Math.floor(this.host.scrollTop / ROW_HEIGHT) - 4);
     const count = Math.ceil(this.host.clientHeight / ROW_HEIGHT) + 8;
-    const rows = this.shown.slice(first, first + count).map((event, k) => this.row(event, first + k));
+    const rows = this.shown
+      .slice(first, first + count)
+      .map((event, k) => this.row(event, first + k));
     this.space.replaceChildren(...rows);
     if (!this.shown.length) this.space.textContent = "Nothing of this kind happens.";
   }
 
   row(event, k) {
-    const row = element("button", { type: "button", class: k === this.now ? "event now" : k < this.now ? "event" : "event later", onclick: () => this.onPick(event) },
-      element("time", {}, clock(event.t)), swatch(this.theme, event.auv), element("bdi", {}, sentence(this.scene, event)));
+    const row = element(
+      "button",
+      {
+        type: "button",
+        class: k === this.now ? "event now" : k < this.now ? "event" : "event later",
+        onclick: () => this.onPick(event),
+      },
+      element("time", {}, clock(event.t)),
+      swatch(this.theme, event.auv),
+      element("bdi", {}, sentence(this.scene, event)),
+    );
     row.style.top = `${k * ROW_HEIGHT}px`;
     return row;
   }

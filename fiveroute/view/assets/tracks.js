@@ -88,7 +88,8 @@ function positionAt(track, t) {
   const after = countUpTo(track.t, t);
   if (after === 0) return { x: track.x[0], y: track.y[0], u: 0, v: 0, at: 0 };
   const k = after - 1;
-  if (after === track.t.length) return { x: track.x[k], y: track.y[k], ...lastHeading(track, k), at: k };
+  if (after === track.t.length)
+    return { x: track.x[k], y: track.y[k], ...lastHeading(track, k), at: k };
   const span = track.t[after] - track.t[k];
   const share = span > 0 ? (t - track.t[k]) / span : 0;
   const [dx, dy] = [track.x[after] - track.x[k], track.y[after] - track.y[k]];

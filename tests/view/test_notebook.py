@@ -1,0 +1,54 @@
+from dataclasses import replace
+from html.parser import HTMLParser
+
+from fiveroute.formats.plan_file import PlanFile
+from fiveroute.instance import Fleet, Instance, Point
+from fiveroute.mission import plan_mission
+from fiveroute.view.notebook import plan_html
+
+
+def tags(html: str) -> list[str]:
+    found: list[str] = []
+
+    class Tags(HTMLParser):
+        def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+            found.append(tag)
+            assert not {"style", "src", "href", "onerror"} & {name for name, _ in attrs}
+
+    Tags().feed(html)
+    return found
+
+
+def test_cell_shows_map_and_fleet(plan: PlanFile) -> None:
+    html = plan_html(plan)
+    assert html == plan._repr_html_()
+    assert tags(html).count("polyline") == 2
+    assert tags(html).count("circle") == 6
+    assert tags(html).count("tr") == 3
+    assert "9 collected, feasible, bound 10, gap 11.11%" in html
+
+
+def test_names_stay_text(plan: PlanFile) -> None:
+    assert not {"script", "img"} & set(tags(plan_html(plan)))
+
+
+def test_mission_plan_shows_itself(plan: PlanFile) -> None:
+    planned = plan_mission(replace(plan.instance, name="still"), seed=1)
+    assert planned._repr_html_().startswith("<div><b>still</b>")
+
+
+def test_mission_without_a_plan_says_so() -> None:
+    far = Instance("far", (), Point(0.0, 0.0), Point(9.0, 0.0), Fleet(1, 1.0, 1.0))
+    assert plan_mission(far)._repr_html_() == "<div><b>far</b>: infeasible</div>"
+
+
+def test_long_lists_are_cut(plan: PlanFile) -> None:
+    many = replace(plan, routes=((),) * 60, durations=(1.0,) * 60, paths=None)
+    html = plan_html(many)
+    assert tags(html).count("tr") == 52
+    assert "and 10 more" in html
+
+
+def test_plan_of_an_empty_map() -> None:
+    lonely = Instance("lonely", (), Point(5.0, 5.0), Point(5.0, 5.0), Fleet(1, 1.0, 1.0))
+    assert "nan" not in plan_mission(lonely)._repr_html_()
