@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from difflib import get_close_matches
+from functools import lru_cache
 from typing import Literal
 
 from fiveroute.errors import InputError
@@ -47,6 +48,11 @@ def fields_of(names: Iterable[str]) -> dict[str, str]:
     InputError
         If a name is almost one of ours, or two mean the same number.
     """
+    return dict(_fields_of(tuple(names)))
+
+
+@lru_cache(maxsize=1024)  # the features of a chart mostly have the same properties
+def _fields_of(names: tuple[str, ...]) -> dict[str, str]:
     found: dict[str, str] = {}
     for name in sorted(names, key=lambda name: _rank(_bare(name))):
         field = _FIELDS.get(_bare(name))
@@ -75,7 +81,7 @@ def _require_foreign(name: str) -> None:
     """Refuse a name that is almost that of a number of ours."""
     spellings = [spelling for spelling, field in _FIELDS.items() if field in _NUMBERS]
     bare = _bare(name)
-    close = get_close_matches(bare, spellings, n=1, cutoff=0.8) if len(bare) > 3 else []
+    close = get_close_matches(bare, spellings, n=1, cutoff=0.8) if 3 < len(bare) < 20 else []
     if close:
         raise InputError(
             f"is no name that is known here; did you mean {_FIELDS[close[0]]!r}? Units are metres, "

@@ -2,14 +2,15 @@
 
 The waypoints of an AUV are those of its filed paths, thinned out to a tolerance: whatever is
 left out lies within it of the straight line between its neighbours. A leg that would cut a
-corner of land or of an obstacle when thinned out keeps all of its waypoints. Without paths the
-AUVs sail straight from node to node. They leave and arrive at the surface, cruise at one depth,
-and visit a node at its own depth if it states one.
+corner of land or of an obstacle when thinned out keeps all of its waypoints, and so does an AUV
+that would come home too late. Without paths the AUVs sail straight from node to node. They leave
+and arrive at the surface, cruise at one depth, and visit a node at its own depth if it states one.
 """
 
 from __future__ import annotations
 
 import itertools
+import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -136,8 +137,26 @@ def _safe_tracks(
         stops = (*filed.plan.routes[fault.auv], destination)
         leg = stops.index(fault.node)
         thin[fault.auv][leg] = tracks[fault.auv][leg]
+    for auv, route in enumerate(filed.plan.routes):
+        if _time_out(filed.instance, route, thin[auv], current) > _endurance(filed.instance, auv):
+            thin[auv] = tracks[auv]
     require_passable(filed, thin, current)
     return thin
+
+
+def _time_out(
+    instance: Instance, route: Sequence[int], paths: Sequence[Floats], current: Current
+) -> float:
+    """Seconds that an AUV takes for its paths and its nodes."""
+    sailed = sum(sailing_time(path, current, instance.fleet.speed) for path in paths)
+    return sailed + float(instance.service_times[list(route)].sum())
+
+
+def _endurance(instance: Instance, auv: int) -> float:
+    endurance = instance.fleet.endurance
+    if isinstance(endurance, tuple):
+        return endurance[auv]
+    return math.inf if endurance is None else endurance
 
 
 def _straight(filed: PlanFile) -> tuple[tuple[tuple[tuple[float, float], ...], ...], ...]:

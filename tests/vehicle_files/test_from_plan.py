@@ -23,6 +23,7 @@ from fiveroute.instance import (
     Polygon,
     Service,
     Uniform,
+    Vortex,
 )
 from fiveroute.result import Status
 from fiveroute.vehicle_files.from_plan import Choices, mission_of
@@ -114,6 +115,24 @@ def test_a_leg_that_would_cut_a_corner_keeps_its_waypoints() -> None:
     coast = replace(BAY, ocean=Ocean(land=(wall,)))
     points = mission(filed(coast, ((hugging, *PATHS[0][1:]),))).vehicles[0].waypoints
     assert [(p.x, p.y) for p in points[1:4]] == list(hugging[1:4])
+
+
+def test_an_auv_that_would_come_home_too_late_keeps_its_waypoints() -> None:
+    """The vortex carries it along the bow, and holds it back on the chord."""
+    vortex = Currents(vortices=(Vortex(500.0, 300.0, -2500.0, 150.0),))
+    angles = np.linspace(np.pi, 0.0, 19)
+    bow = np.column_stack((500.0 + 500.0 * np.cos(angles), 480.0 * np.sin(angles)))
+    bow[[0, -1]] = (0.0, 0.0), (1000.0, 0.0)
+    sea = replace(BAY, ocean=Ocean(vortex), nodes=BAY.nodes[:1], destination=Point(1000.0, 0.0))
+    paths = ((tuple(map(tuple, bow.tolist())), ((1000.0, 0.0), (1000.0, 0.0))),)
+    plan = filed(sea, paths, routes=(("a",),), objective=1.0)
+    assert len(mission(plan, tolerance=1000.0).vehicles[0].waypoints) == 3
+    slow = mission(plan, tolerance=1000.0).vehicles[0].waypoints[-1].arrival
+    assert slow > plan.durations[0] + 1.0
+    tight = replace(sea, fleet=replace(sea.fleet, endurance=plan.durations[0] + 1.0))
+    kept = mission(replace(plan, instance=tight), tolerance=1000.0).vehicles[0].waypoints
+    assert len(kept) == 20
+    assert kept[-1].arrival == pytest.approx(plan.durations[0], abs=0.5)
 
 
 def test_unsafe_plans_are_refused() -> None:
