@@ -191,6 +191,9 @@ def simulation_answer(voyage: Voyage, result: SimulationResult, seed: int) -> di
         "late_returns": result.late_returns,
         "double_visits": result.double_visits,
         "messages": {"sent": sent, "delivered": delivered},
+        "min_clearance": result.min_clearance,
+        "collisions": result.collisions,
+        "lost": result.lost,
         "unreachable": list(voyage.unreachable),
         "straight_lines": voyage.legs is None,
         "seconds": result.seconds,
@@ -212,6 +215,13 @@ def print_simulation(answer: Mapping[str, Any]) -> None:
         ("double visits", str(answer["double_visits"])),
         ("messages", f"{sent} sent, {delivered} received"),
     ]
+    if answer["min_clearance"] is not None:
+        figures += [
+            ("clearance", f"{answer['min_clearance']:.1f} m at the least"),
+            ("collisions", str(answer["collisions"])),
+        ]
+    if answer["lost"]:
+        figures.append(("lost", f"{answer['lost']} AUVs, by the current or obstacles"))
     if answer["online_gap"] is not None:
         figures.append(("online gap", f"{100 * answer['online_gap']:.1f} % to the clairvoyant"))
     for name, text in figures:

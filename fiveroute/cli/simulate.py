@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -11,8 +11,10 @@ from fiveroute.cli import options
 
 if TYPE_CHECKING:
     from fiveroute.formats.plan_file import PlanFile
+    from fiveroute.limits import Clock
     from fiveroute.paths.voyage import Voyage
     from fiveroute.plan import Plan
+    from fiveroute.sea.theatre import Theatre
 
 __all__ = ["command"]
 
@@ -27,6 +29,7 @@ PLANNERS = (
     "to-the-letter",
     "re-optimising",
 )
+ACTUATIONS = ("abstraction", "vehicle")
 CHANNELS = ("unlimited", "fsk", "psk", "nanomodem", "bursty")
 
 
@@ -65,6 +68,13 @@ CHANNELS = ("unlimited", "fsk", "psk", "nanomodem", "bursty")
     metavar="P",
     help="Probability that an AUV fails in mid-mission.",
 )
+@click.option(
+    "--actuation",
+    type=click.Choice(ACTUATIONS),
+    default="abstraction",
+    show_default=True,
+    help="What a leg takes: equation (12), or what a vehicle takes that sails it.",
+)
 @click.option("--gap", is_flag=True, help="Compare each run with a clairvoyant plan (slower).")
 @options.workers
 @click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler to run on instead.")
@@ -79,29 +89,19 @@ CHANNELS = ("unlimited", "fsk", "psk", "nanomodem", "bursty")
 @click.pass_context
 def command(
     ctx: click.Context,
+    /,
     instance: Path,
     plan: Path | None,
-    planner: str,
-    fleet_size: int | None,
-    runs: int,
-    seed: int,
-    reserve: float,
-    channel: str,
-    loss: float | None,
-    failures: float,
-    gap: bool,
     workers: int,
     scheduler: str | None,
     time_limit: float,
-    straight_lines: bool,
     events: Path | None,
     output: Path | None,
     force: bool,
     as_json: bool,
+    **choices: Any,
 ) -> None:
     """Carry PLAN out in the uncertain ocean of INSTANCE; without PLAN, plan first."""
-    import numpy as np
-
     from fiveroute.cli import answers
     from fiveroute.cli.files import require_output
     from fiveroute.cli.running import run
@@ -112,11 +112,7 @@ def command(
     from fiveroute.formats.files import write_text_atomically
     from fiveroute.formats.plan_file import read_plan
     from fiveroute.limits import Limits, ProgressCallback
-    from fiveroute.sea.channel import PRESETS
-    from fiveroute.sea.departure import departure_plan
     from fiveroute.sea.simulation import SimulationResult
-    from fiveroute.sea.theatre import Theatre
-    from fiveroute.tiers.preplanning import fleet_size_of
 
     for path in (events, output):
         require_output(path, force)
@@ -124,33 +120,21 @@ def command(
         require_table(output)
     mission = read_instance(instance)
     filed = None if plan is None else read_plan(plan, mission)
-    chosen = {
-        "planner": planner,
-        "reserve": reserve,
-        "loss": loss,
-        "failures": failures,
-        "channel": PRESETS[channel],
-        "seed": seed,
-        "log": events is not None,
-        "gap": gap,
-    }
 
     def work(limits: Limits, progress: ProgressCallback | None) -> tuple[Voyage, SimulationResult]:
         clock = limits.start()
         voyage = sail(
-            mission, instance, limits, straight_lines=straight_lines, seed=seed, progress=progress
+            mission,
+            instance,
+            limits,
+            straight_lines=choices["straight_lines"],
+            seed=choices["seed"],
+            progress=progress,
         )
-        filed_routes = None if filed is None else _routes(filed, voyage)
-        if filed_routes is not None:
-            size = len(filed_routes.routes)
-        else:
-            rng = np.random.default_rng(seed)
-            size = fleet_size or fleet_size_of(voyage.instance, voyage.travel, rng=rng)
-        theatre = Theatre.of(voyage.instance, size, travel=voyage.travel)
-        routes = filed_routes or departure_plan(
-            theatre, planner, reserve=reserve, seed=seed, limits=clock.rest()
+        theatre, routes = _prepared(voyage, instance.parent, filed, clock, choices)
+        campaign = Campaign(
+            theatre, routes, choices["runs"], _steering(choices, events is not None)
         )
-        campaign = Campaign(theatre, routes, runs, chosen)
         return voyage, sail_campaign(
             campaign, workers=workers, scheduler=scheduler, limits=clock.rest(), progress=progress
         )
@@ -161,12 +145,53 @@ def command(
         write_text_atomically(events, event_lines(voyage.instance, result), force)
     if output is not None:
         write_table(result, output, force)
-    answer = answers.simulation_answer(voyage, result, seed)
+    answer = answers.simulation_answer(voyage, result, choices["seed"])
     if as_json:
         answers.print_json(answer)
     else:
         answers.print_simulation(answer)
     ctx.exit(130 if outcome.interrupted else 0)
+
+
+def _prepared(
+    voyage: Voyage, folder: Path, filed: PlanFile | None, clock: Clock, choices: dict[str, Any]
+) -> tuple[Theatre, Plan]:
+    """The theatre, and the routes of the plan file or else those of the rehearsed plan."""
+    import numpy as np
+
+    from fiveroute.sea.departure import departure_plan
+    from fiveroute.sea.sailed_luck import VehicleModel
+    from fiveroute.sea.theatre import Theatre
+    from fiveroute.tiers.preplanning import fleet_size_of
+
+    seed = choices["seed"]
+    routes = None if filed is None else _routes(filed, voyage)
+    if routes is not None:
+        size = len(routes.routes)
+    else:
+        rng = np.random.default_rng(seed)
+        size = choices["fleet_size"] or fleet_size_of(voyage.instance, voyage.travel, rng=rng)
+    theatre = Theatre.of(voyage.instance, size, travel=voyage.travel)
+    if choices["actuation"] == "vehicle":
+        theatre = theatre.sailed_by(VehicleModel.of(voyage, folder), seed)
+    if routes is None:
+        routes = departure_plan(
+            theatre.by_law,
+            choices["planner"],
+            reserve=choices["reserve"],
+            seed=seed,
+            limits=clock.rest(),
+        )
+    return theatre, routes
+
+
+def _steering(choices: dict[str, Any], log: bool) -> dict[str, Any]:
+    """The arguments of `simulate_fleet` among the choices."""
+    from fiveroute.sea.channel import PRESETS
+
+    same = ("planner", "reserve", "loss", "failures", "seed", "gap")
+    steering = {name: choices[name] for name in same}
+    return steering | {"channel": PRESETS[choices["channel"]], "log": log}
 
 
 def _routes(filed: PlanFile, voyage: Voyage) -> Plan:

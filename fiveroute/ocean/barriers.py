@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from fiveroute.kernels import kernel
 from fiveroute.ocean.current_grid import Region
 
-__all__ = ["Barriers", "clearance", "leg_clearance", "no_barriers"]
+__all__ = ["Barriers", "clearance", "distance_to_leg", "leg_clearance", "no_barriers"]
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -106,7 +106,7 @@ def leg_clearance(barriers: Barriers, x0: float, y0: float, x1: float, y1: float
     )
     for k in range(len(barriers.circles)):
         x, y, radius = barriers.circles[k]
-        least = min(least, _distance(x, y, x0, y0, x1, y1) - radius - barriers.margin)
+        least = min(least, distance_to_leg(x, y, x0, y0, x1, y1) - radius - barriers.margin)
     for k in range(len(barriers.first) - 1):
         least = min(least, _polygon_clearance(barriers, k, x0, y0, x1, y1) - barriers.margin)
     if barriers.land.size:
@@ -156,7 +156,7 @@ def _land_at(barriers: Barriers, x: float, y: float) -> float:
 
 
 @kernel
-def _distance(x: float, y: float, x0: float, y0: float, x1: float, y1: float) -> float:
+def distance_to_leg(x: float, y: float, x0: float, y0: float, x1: float, y1: float) -> float:
     """Distance of a point from a leg, which may be a point itself."""
     east, north = x1 - x0, y1 - y0
     squared = east * east + north * north
@@ -178,8 +178,8 @@ def _distance_of_legs(
     if side0 * side1 < 0.0 and side_a * side_b < 0.0:
         return 0.0
     return min(
-        _distance(x0, y0, xa, ya, xb, yb),
-        _distance(x1, y1, xa, ya, xb, yb),
-        _distance(xa, ya, x0, y0, x1, y1),
-        _distance(xb, yb, x0, y0, x1, y1),
+        distance_to_leg(x0, y0, xa, ya, xb, yb),
+        distance_to_leg(x1, y1, xa, ya, xb, yb),
+        distance_to_leg(xa, ya, x0, y0, x1, y1),
+        distance_to_leg(xb, yb, x0, y0, x1, y1),
     )

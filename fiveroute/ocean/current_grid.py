@@ -28,7 +28,14 @@ from numpy.typing import NDArray
 from fiveroute.kernels import kernel
 from fiveroute.ocean.currents import Current
 
-__all__ = ["CurrentGrid", "Region", "grid_current", "interpolation_error", "velocity"]
+__all__ = [
+    "CurrentGrid",
+    "Region",
+    "grid_current",
+    "interpolation_error",
+    "refined",
+    "velocity",
+]
 
 Floats = NDArray[np.float64]
 
@@ -150,6 +157,20 @@ def interpolation_error(grid: CurrentGrid, current: Current) -> float:
     times = grid.begin + grid.every * np.arange(len(grid.uv))
     between = times[:-1] + _BETWEEN * grid.every
     return max(_error_at(grid, current, t) for t in (*times, *between))
+
+
+def refined(grid: CurrentGrid, step: float) -> CurrentGrid:
+    """The same current at points that are at most `step` metres apart, in the same region."""
+    if grid.step <= step:
+        return grid
+    parts = math.ceil(grid.step / step)
+    fine = grid.step / parts
+    rows, columns = (parts * (lines - 1) + 1 for lines in grid.uv.shape[1:3])
+    x, y = grid.west + fine * np.arange(columns), grid.south + fine * np.arange(rows)
+    uv = np.empty((len(grid.uv), rows, columns, 2))
+    for k, known in enumerate(uv):
+        _fill(grid, x, y, grid.begin + k * grid.every, known)
+    return grid._replace(uv=uv, step=fine)
 
 
 def _error_at(grid: CurrentGrid, current: Current, t: float) -> float:

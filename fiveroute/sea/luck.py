@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,10 +23,28 @@ from numpy.typing import NDArray
 from fiveroute.kernels import kernel
 from fiveroute.tiers.actuation import LegLaw, actual_leg, manoeuvre_count
 
-__all__ = ["Luck", "leg_luck", "stream"]
+__all__ = ["Leg", "Luck", "leg_luck", "stream"]
 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)  # 2^64 over the golden ratio
 _PRIME = np.uint64(0xD6E8FEB86659FD93)
+
+
+class Leg(NamedTuple):
+    """What a leg takes in one run.
+
+    Parameters
+    ----------
+    time
+        Seconds to its end; where it is not reached, until the AUV is lost.
+    moments
+        Seconds from its beginning to that of each manoeuvre.
+    arrives
+        Whether its end is reached.
+    """
+
+    time: float
+    moments: tuple[float, ...] = ()
+    arrives: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,9 +70,10 @@ class Luck:
         """The stream of random numbers of this run."""
         return stream(self.seed, self.run)
 
-    def leg(self, i: int, j: int) -> tuple[float, int]:
-        """Time in seconds that the leg from i to j takes, and the manoeuvres on it."""
-        return leg_luck(self.law, self.key, i, j)
+    def leg(self, i: int, j: int, begin: float = 0.0) -> Leg:
+        """What the leg from i to j takes, whenever it begins; manoeuvres are spread evenly."""
+        time, count = leg_luck(self.law, self.key, i, j)
+        return Leg(time, tuple(time * (k + 1) / (count + 1) for k in range(count)))
 
     def matrix(self) -> NDArray[np.float64]:
         """All leg times in seconds, shape (n + 2, n + 2): what only a clairvoyant knows."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +35,7 @@ from fiveroute.sea.planners.own_pick_up import OwnPickUp
 from fiveroute.sea.planners.re_optimising import ReOptimising
 from fiveroute.sea.planners.rmmp import Rmmp
 from fiveroute.sea.planners.to_the_letter import ToTheLetter
+from fiveroute.sea.sailed_luck import SailedLuck
 from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Crew, Voyage
 from fiveroute.sea.watch import SILENCE
@@ -81,6 +83,14 @@ class RunResult:
         it was not asked for.
     events
         What happened, in the order of time; empty if no log was asked for.
+    legs
+        Tail, head and beginning in seconds of the legs of each AUV; empty likewise.
+    min_clearance
+        Least clearance of all tracks in metres; None where no vehicle sailed, or in open water.
+    collisions
+        Number of tracks that met a barrier.
+    lost
+        Number of AUVs that a current or obstacles kept from arriving.
     """
 
     run: int
@@ -93,6 +103,10 @@ class RunResult:
     false_takeovers: int = 0
     clairvoyant: float | None = None
     events: tuple[Event, ...] = ()
+    legs: tuple[tuple[tuple[int, int, float], ...], ...] = ()
+    min_clearance: float | None = None
+    collisions: int = 0
+    lost: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,6 +147,22 @@ class SimulationResult:
     def double_visits(self) -> int:
         """Number of collections in vain, over all runs."""
         return sum(run.double_visits for run in self.runs)
+
+    @property
+    def min_clearance(self) -> float | None:
+        """Least clearance in metres of all tracks of all runs; None where there is none."""
+        known = [run.min_clearance for run in self.runs if run.min_clearance is not None]
+        return min(known, default=None)
+
+    @property
+    def collisions(self) -> int:
+        """Number of tracks that met a barrier, over all runs."""
+        return sum(run.collisions for run in self.runs)
+
+    @property
+    def lost(self) -> int:
+        """Number of AUVs that a current or obstacles kept from arriving, over all runs."""
+        return sum(run.lost for run in self.runs)
 
     @property
     def messages(self) -> tuple[int, int]:
@@ -189,7 +219,7 @@ def simulate_fleet(
     log
         Whether to keep the events.
     gap
-        Whether to look for the clairvoyant plan of every run.
+        Whether to look for the clairvoyant plan of every run; not where a vehicle sails the legs.
     limits
         When to stop; the runs done so far are returned, one at least.
     progress
@@ -234,9 +264,9 @@ class _Sea:
 
 
 def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool, gap: bool) -> RunResult:
-    problem, luck = sea.theatre.problem, Luck(sea.theatre.law, sea.seed, run)
+    problem, luck = sea.theatre.problem, sea.theatre.luck(sea.seed, run)
     fails = failure_times(problem.budgets, sea.failures, sea.seed, run)
-    if planner == "no-coordination" and not (log or gap):
+    if planner == "no-coordination" and isinstance(luck, Luck) and not (log or gap):
         return _run_alone(sea.theatre, sea.view, plan, luck, fails)
     voyage = Voyage(problem, luck, fails)
     crew = _crew(sea, voyage, plan, planner)
@@ -253,9 +283,14 @@ def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool, gap: bool) ->
         tuple(arrivals),
         _late(sea.theatre, arrivals),
         len(nodes) - len(set(nodes)),
-        clairvoyant=_best(sea.theatre, voyage) if gap else None,
-        events=tuple(voyage.log) if log else (),
     )
+    if log:
+        legs = tuple(tuple(vessel.sailed) for vessel in voyage.vessels)
+        result = replace(result, events=tuple(voyage.log), legs=legs)
+    if isinstance(luck, SailedLuck):
+        result = replace(result, **_safety(luck, voyage))
+    elif gap:
+        result = replace(result, clairvoyant=_best(sea.theatre, voyage, luck))
     if isinstance(crew, FiveTier | Cbba):
         sent, delivered = crew.radio.sent, crew.radio.delivered
         takeovers = crew.false_takeovers
@@ -263,13 +298,28 @@ def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool, gap: bool) ->
     return result
 
 
-def _best(theatre: Theatre, voyage: Voyage) -> float:
+def _safety(luck: SailedLuck, voyage: Voyage) -> dict[str, Any]:
+    """What the tracks of a run prove."""
+    least = luck.least_clearance
+    lost = sum(
+        vessel.due <= fails and not luck.leg(*vessel.sailed[-1]).arrives
+        for vessel, fails in zip(voyage.vessels, voyage.failures, strict=True)
+        if vessel.sailed
+    )
+    return {
+        "min_clearance": least if math.isfinite(least) else None,
+        "collisions": luck.collisions,
+        "lost": lost,
+    }
+
+
+def _best(theatre: Theatre, voyage: Voyage, luck: Luck) -> float:
     """Completion rate of the clairvoyant plan."""
     routes: list[list[int]] = [[] for _ in voyage.vessels]
     for event in voyage.log:
         if event.kind == "collect" and event.node is not None:
             routes[event.auv].append(event.node)
-    real, plan = clairvoyant_plan(theatre.problem, voyage.luck, Plan.of(routes))
+    real, plan = clairvoyant_plan(theatre.problem, luck, Plan.of(routes))
     return plan.objective(real) / (real.total_profit or 1.0)
 
 

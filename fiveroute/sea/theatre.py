@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.generate import DEFAULT_UNCERTAINTY
 from fiveroute.instance import Instance, Uncertainty
 from fiveroute.problem import TeamOrienteering
-from fiveroute.tiers.actuation import LegLaw, leg_law
+from fiveroute.sea.luck import Luck
+from fiveroute.sea.sailed_luck import SailedLuck, VehicleModel
+from fiveroute.tiers.actuation import LegLaw, leg_law, uncertainty_of
 
 __all__ = ["Theatre"]
+
+_TRIAL_OCEANS = 1 << 41
+"""Added to the seed of a simulation for the oceans that the law of a vehicle is fitted in."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,14 +29,20 @@ class Theatre:
     problem
         The problem, with the fleet that is sent.
     law
-        What the legs really take.
+        What the legs really take, or, where a vehicle sails them, what is expected of them.
     points
         Positions of start, nodes and destination in metres, shape (n + 2, 2).
+    lengths_km
+        Lengths of the legs in kilometres, shape (n + 2, n + 2).
+    model
+        The vehicle that sails the legs; None where they take what the law says.
     """
 
     problem: TeamOrienteering
     law: LegLaw
     points: NDArray[np.float64]
+    lengths_km: NDArray[np.float64]
+    model: VehicleModel | None = None
 
     @classmethod
     def of(
@@ -54,13 +65,41 @@ class Theatre:
             Planned leg times in seconds from tier 3, shape (n + 2, n + 2); None sails straight
             lines in still water.
         uncertainty
-            The terms of (12); None takes those of the instance, or, where it states none,
-            `fiveroute.generate.DEFAULT_UNCERTAINTY`.
+            The terms of (12); None takes those of the instance, see `uncertainty_of`.
         """
         problem = instance.problem(fleet_size, travel)
         lengths_km = instance.travel * (instance.fleet.speed / 1000.0)
-        if uncertainty is None:
-            stated = instance.uncertainty
-            uncertainty = DEFAULT_UNCERTAINTY if stated == Uncertainty() else stated
-        law = leg_law(problem.travel, lengths_km, uncertainty)
-        return cls(problem, law, instance.points)
+        law = leg_law(problem.travel, lengths_km, uncertainty or uncertainty_of(instance))
+        return cls(problem, law, instance.points, lengths_km)
+
+    def sailed_by(self, model: VehicleModel, seed: int = 0) -> Theatre:
+        """The same mission, its legs sailed by a vehicle, and the law fitted to what it does.
+
+        Equation (12) knows no delay on the average; here a leg is expected to take as much longer
+        than planned as it did when the law was fitted, and scatters about that.
+
+        Parameters
+        ----------
+        model
+            How legs are sailed.
+        seed
+            Seed of the simulation; the fit has oceans of its own.
+        """
+        planned = self.problem.travel
+        fit = model.fit(planned, seed=seed + _TRIAL_OCEANS)
+        delay = fit.delay.value
+        scatter = math.sqrt(max(fit.drift.value**2 - delay**2, 0.0)) / (1.0 + delay)
+        uncertainty = replace(fit.uncertainty, drift=scatter, floor=self.law.floor)
+        law = leg_law((1.0 + delay) * planned, self.lengths_km, uncertainty)
+        return replace(self, law=law, model=model)
+
+    @property
+    def by_law(self) -> Theatre:
+        """The same mission, its legs by the law alone, for fast rehearsals."""
+        return replace(self, model=None)
+
+    def luck(self, seed: int, run: int) -> Luck | SailedLuck:
+        """What every leg takes in one run."""
+        if self.model is None:
+            return Luck(self.law, seed, run)
+        return SailedLuck(self.model, seed, run)

@@ -19,6 +19,7 @@ from fiveroute.problem import TeamOrienteering
 from fiveroute.sea.course import Course, Outlook
 from fiveroute.sea.events import Event, Kind
 from fiveroute.sea.luck import Luck
+from fiveroute.sea.sailed_luck import SailedLuck
 
 __all__ = ["Crew", "Vessel", "Voyage", "course_of"]
 
@@ -56,6 +57,8 @@ class Vessel:
         Time in seconds at which it will reach the target, which it does not know.
     is_alive, is_home
         Whether it still works, and whether it has reached the destination.
+    sailed
+        Tail, head and beginning in seconds of every leg so far.
     """
 
     budget: float
@@ -65,6 +68,7 @@ class Vessel:
     due: float = 0.0
     is_alive: bool = True
     is_home: bool = False
+    sailed: list[tuple[int, int, float]] = field(default_factory=list)
 
     @property
     def is_active(self) -> bool:
@@ -91,7 +95,7 @@ class Voyage:
     """
 
     problem: TeamOrienteering
-    luck: Luck
+    luck: Luck | SailedLuck
     failures: Sequence[float]
     vessels: list[Vessel] = field(init=False)
     log: list[Event] = field(default_factory=list)
@@ -126,12 +130,13 @@ class Voyage:
         if not vessel.is_alive:
             return
         target = crew.steer(auv, t)
-        time, manoeuvres = self.luck.leg(vessel.at, target)
-        vessel.target, vessel.left, vessel.due = target, t, t + time
-        for k in range(manoeuvres):
-            met = t + time * (k + 1) / (manoeuvres + 1)
-            self.plan(met, partial(self._manoeuvre, auv))
-        self.plan(vessel.due, partial(self._reach, crew, auv))
+        leg = self.luck.leg(vessel.at, target, t)
+        vessel.sailed.append((vessel.at, target, t))
+        vessel.target, vessel.left, vessel.due = target, t, t + leg.time
+        for moment in leg.moments:
+            self.plan(t + moment, partial(self._manoeuvre, auv))
+        end = partial(self._reach, crew, auv) if leg.arrives else partial(self._fail, auv)
+        self.plan(vessel.due, end)
 
     def _reach(self, crew: Crew, auv: int, t: float) -> None:
         vessel = self.vessels[auv]

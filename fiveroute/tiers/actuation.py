@@ -13,7 +13,8 @@ times positive. Far above it
     E f = t_ij + rate length manoeuvre_time,
     Var f = (drift t_ij)^2 + rate length manoeuvre_time^2,
 
-which is what an AUV that knows the law, but not its luck, expects of a leg.
+which is what an AUV that knows the law, but not its luck, expects of a leg. The vehicle that the
+law stands for is `fiveroute.vehicle`.
 """
 
 from __future__ import annotations
@@ -24,10 +25,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fiveroute.instance import Uncertainty
+from fiveroute.generate import DEFAULT_UNCERTAINTY
+from fiveroute.instance import Instance, Uncertainty
 from fiveroute.kernels import kernel
 
-__all__ = ["LegLaw", "actual_leg", "expected_legs", "leg_law", "manoeuvre_count"]
+__all__ = [
+    "LegLaw",
+    "actual_leg",
+    "expected_legs",
+    "leg_law",
+    "manoeuvre_count",
+    "uncertainty_of",
+]
 
 Floats = NDArray[np.float64]
 
@@ -75,6 +84,12 @@ def leg_law(planned: ArrayLike, lengths_km: ArrayLike, uncertainty: Uncertainty)
         float(uncertainty.manoeuvre_time),
         float(uncertainty.floor),
     )
+
+
+def uncertainty_of(instance: Instance) -> Uncertainty:
+    """The terms of (12) of an instance, or, where it states none, `DEFAULT_UNCERTAINTY`."""
+    stated = instance.uncertainty
+    return DEFAULT_UNCERTAINTY if stated == Uncertainty() else stated
 
 
 def expected_legs(law: LegLaw) -> tuple[Floats, Floats]:

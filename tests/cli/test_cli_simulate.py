@@ -64,6 +64,21 @@ def test_the_same_seed_gives_the_same_numbers(call: Any, tiny: Path, tmp_path: P
     assert tables[0] == tables[1]
 
 
+def test_a_vehicle_sails_the_legs(call: Any, tiny: Path, tmp_path: Path) -> None:
+    tables = []
+    for workers in (1, 2):
+        table = tmp_path / f"{workers}.csv"
+        answer = call(
+            *("simulate", tiny, "--actuation", "vehicle", "--runs", 4, "--gap"),
+            *("--workers", workers, "--output", table, "--json"),
+        )
+        assert answer.code == 0
+        assert answer.doc["collisions"] == 0
+        assert answer.doc["online_gap"] is None
+        tables.append(table.read_text())
+    assert tables[0] == tables[1]
+
+
 def test_the_choices_are_those_there_are() -> None:
     """The command line names them without importing what they stand for."""
     assert set(simulate.PLANNERS) == set(PLANNERS)

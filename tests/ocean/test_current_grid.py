@@ -12,6 +12,7 @@ from fiveroute.ocean.current_grid import (
     Region,
     grid_current,
     interpolation_error,
+    refined,
     velocity,
 )
 from fiveroute.ocean.currents import (
@@ -200,3 +201,13 @@ def test_interpolation_is_smooth() -> None:
     y = np.array([1234.0])
     here, left, right = (ask(grid, x + shift, y) for shift in (0.0, -h, h))
     np.testing.assert_allclose((here - left) / h, (right - here) / h, atol=1e-8)
+
+
+def test_a_refined_grid_is_the_same_current() -> None:
+    coarse = grid_current(GYRE, REGION, duration=6000.0, step=200.0)
+    fine = refined(coarse, 60.0)
+    assert fine.step == 50.0
+    assert fine.region == pytest.approx(coarse.region)
+    for x, y, t in ((0.0, 1000.0, 0.0), (1330.0, 2710.0, 1700.0), (2999.0, 501.0, 6000.0)):
+        assert velocity(fine, x, y, t) == pytest.approx(velocity(coarse, x, y, t), abs=1e-4)
+    assert refined(fine, 60.0) is fine

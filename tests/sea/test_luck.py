@@ -45,7 +45,7 @@ def test_an_arc_has_its_luck_whenever_it_is_asked() -> None:
         every[0, 61],
         every[9, 5],
     ]
-    assert leg_luck(law(), Luck(law(), 8, 4).key, 5, 9) != luck.leg(5, 9)
+    assert leg_luck(law(), Luck(law(), 8, 4).key, 5, 9)[0] != luck.leg(5, 9).time
 
 
 def test_without_uncertainty_legs_are_as_planned() -> None:

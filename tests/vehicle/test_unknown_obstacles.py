@@ -1,11 +1,12 @@
-"""Strewn discs: how many there are, and what they leave free."""
+"""Strewn discs: how many there are, what they leave free, and which of them lie near a track."""
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
-from fiveroute.ocean.barriers import clearance
-from fiveroute.vehicle.unknown_obstacles import strewn_discs
+from fiveroute.ocean.barriers import clearance, leg_clearance, no_barriers
+from fiveroute.vehicle.unknown_obstacles import near_track, strewn_about, strewn_discs
 
 TRACK = np.array([[0.0, 0.0], [2000.0, 500.0], [3000.0, 0.0]])
 
@@ -37,3 +38,35 @@ def test_bad_numbers_are_named() -> None:
         strewn_discs(TRACK, 1.0, (9.0, 5.0), rng)
     with pytest.raises(InputError, match="per_km2"):
         strewn_discs(TRACK, -1.0, (5.0, 9.0), rng)
+
+
+LOW, HIGH = np.array([0.0, 0.0]), np.array([4000.0, 3000.0])
+
+
+def test_a_whole_sea_leaves_passages_and_room_at_the_stops() -> None:
+    known = no_barriers()._replace(circles=np.array([[2000.0, 1500.0, 300.0]]))
+    stops = np.array([[500.0, 500.0], [3500.0, 2500.0]])
+    for seed in range(5):
+        rng = np.random.default_rng(seed)
+        sea = strewn_about(known, stops, LOW, HIGH, 12.0, (10.0, 40.0), rng, passage=80.0)
+        assert (sea.circles[0] == known.circles[0]).all()
+        assert len(sea.circles) > 40
+        assert min(clearance(sea, x, y) for x, y in stops) > 60.0
+        apart = np.hypot(*(sea.circles[:, None, :2] - sea.circles[None, :, :2]).T)
+        water = apart - np.add.outer(sea.circles[:, 2], sea.circles[:, 2])
+        assert water[~np.eye(len(water), dtype=bool)].min() > 80.0
+
+
+def test_near_a_track_is_what_a_clearance_says() -> None:
+    rng = np.random.default_rng(5)
+    circles = strewn_about(
+        no_barriers(), TRACK, LOW, HIGH, 12.0, (10.0, 40.0), rng, passage=0.0
+    ).circles
+
+    def clear(circle: NDArray[np.float64]) -> float:
+        alone = no_barriers()._replace(circles=circle[None, :])
+        return min(leg_clearance(alone, *TRACK[k], *TRACK[k + 1]) for k in range(2))
+
+    near = near_track(circles, TRACK, 200.0)
+    assert 0 < len(near) < len(circles)
+    assert near.tolist() == [circle.tolist() for circle in circles if clear(circle) < 200.0]
