@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -79,8 +80,10 @@ def preplanning(
 @click.option(
     "--runs", type=click.IntRange(min=1), default=50, show_default=True, help="Oceans a scenario."
 )
+@options.actuation
 @options.reserve
 @options.workers
+@options.scheduler
 @options.seed
 @options.output("Folder for report, tables and pictures; what is done is kept there as it is done.")
 @options.force
@@ -88,14 +91,13 @@ def preplanning(
 @click.pass_context
 def stochastic(
     ctx: click.Context,
-    scenarios: int,
-    runs: int,
-    reserve: float,
+    /,
     workers: int,
-    seed: int,
+    scheduler: str | None,
     output: Path | None,
     force: bool,
     as_json: bool,
+    **choices: Any,
 ) -> None:
     """Section IV-C and D: the five-tiered planner against FTCMP and RMMP, with and without tier 5.
 
@@ -104,17 +106,18 @@ def stochastic(
     from fiveroute.cli import answers
     from fiveroute.cli.files import require_folder
     from fiveroute.cli.running import run
-    from fiveroute.experiments.stochastic import Outcome, cells_of, sail_cells
+    from fiveroute.experiments.stochastic import Outcome, cells_of, registered, sail_cells
     from fiveroute.experiments.stochastic_report import FILES, report, summary, write_report
     from fiveroute.limits import Limits, Progress, ProgressCallback
 
     require_folder(output, FILES, force)
-    cells = cells_of(scenarios, runs, seed=seed, reserve=reserve)
+    cells = cells_of(**choices)
+    registry = None if output is None else registered(output, choices, force=force)
 
     def work(limits: Limits, progress: ProgressCallback | None) -> list[Outcome]:
         clock, done = limits.start(), []
         folder = None if output is None else output / "cells"
-        for outcome in sail_cells(cells, folder, workers=workers):
+        for outcome in sail_cells(cells, folder, workers=workers, scheduler=scheduler):
             done.append(outcome)
             if progress is not None:
                 message = f"{len(done)} of {len(cells)} planners and scenarios"
@@ -129,6 +132,8 @@ def stochastic(
         ctx.exit(130)
     if output is not None:
         write_report(outcome.value, output, force)
+    if registry is not None:
+        registry.end()
     if as_json:
         answers.print_json(summary(outcome.value))
     else:

@@ -10,18 +10,24 @@ from typing import Any, TypeVar
 import click
 
 __all__ = [
+    "ACTUATIONS",
+    "actuation",
     "fleet_size",
     "force",
     "instance",
     "json_output",
     "output",
     "reserve",
+    "scheduler",
     "seed",
     "straight_lines",
     "time_limit",
     "workers",
 ]
 
+
+ACTUATIONS = ("abstraction", "vehicle")
+"""What a leg may take in a simulation."""
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -95,6 +101,14 @@ workers = click.option(
     show_default=True,
     metavar="W",
     help="Processes; the numbers do not depend on them.",
+)
+scheduler = click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler to run on instead.")
+actuation = click.option(
+    "--actuation",
+    type=click.Choice(ACTUATIONS),
+    default="abstraction",
+    show_default=True,
+    help="What a leg takes: equation (12), or what a vehicle takes that sails it.",
 )
 reserve = click.option(
     "--reserve",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +11,9 @@ import click
 from fiveroute.cli import options
 
 if TYPE_CHECKING:
+    from fiveroute.experiments.registry import Registry
     from fiveroute.formats.plan_file import PlanFile
+    from fiveroute.instance import Instance
     from fiveroute.limits import Clock
     from fiveroute.paths.voyage import Voyage
     from fiveroute.plan import Plan
@@ -29,7 +32,6 @@ PLANNERS = (
     "to-the-letter",
     "re-optimising",
 )
-ACTUATIONS = ("abstraction", "vehicle")
 CHANNELS = ("unlimited", "fsk", "psk", "nanomodem", "bursty")
 
 
@@ -68,16 +70,10 @@ CHANNELS = ("unlimited", "fsk", "psk", "nanomodem", "bursty")
     metavar="P",
     help="Probability that an AUV fails in mid-mission.",
 )
-@click.option(
-    "--actuation",
-    type=click.Choice(ACTUATIONS),
-    default="abstraction",
-    show_default=True,
-    help="What a leg takes: equation (12), or what a vehicle takes that sails it.",
-)
+@options.actuation
 @click.option("--gap", is_flag=True, help="Compare each run with a clairvoyant plan (slower).")
 @options.workers
-@click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler to run on instead.")
+@options.scheduler
 @options.time_limit
 @options.straight_lines
 @click.option(
@@ -120,6 +116,12 @@ def command(
         require_table(output)
     mission = read_instance(instance)
     filed = None if plan is None else read_plan(plan, mission)
+    log = events is not None
+    registry = None
+    if output is not None:
+        config = {**choices, "log": log}
+        anew = force or time_limit < math.inf  # such a plan cannot be made again
+        registry = _registered(output, config, mission, instance, plan, anew)
 
     def work(limits: Limits, progress: ProgressCallback | None) -> tuple[Voyage, SimulationResult]:
         clock = limits.start()
@@ -132,12 +134,16 @@ def command(
             progress=progress,
         )
         theatre, routes = _prepared(voyage, instance.parent, filed, clock, choices)
-        campaign = Campaign(
-            theatre, routes, choices["runs"], _steering(choices, events is not None)
+        campaign = Campaign(theatre, routes, choices["runs"], _steering(choices, log))
+        result = sail_campaign(
+            campaign,
+            workers=workers,
+            scheduler=scheduler,
+            journal=None if registry is None else registry.journal,
+            limits=clock.rest(),
+            progress=progress,
         )
-        return voyage, sail_campaign(
-            campaign, workers=workers, scheduler=scheduler, limits=clock.rest(), progress=progress
-        )
+        return voyage, result
 
     outcome = run(work, Limits(time_limit))
     voyage, result = outcome.value
@@ -145,12 +151,37 @@ def command(
         write_text_atomically(events, event_lines(voyage.instance, result), force)
     if output is not None:
         write_table(result, output, force)
+    if registry is not None:
+        registry.end()
     answer = answers.simulation_answer(voyage, result, choices["seed"])
     if as_json:
         answers.print_json(answer)
     else:
         answers.print_simulation(answer)
     ctx.exit(130 if outcome.interrupted else 0)
+
+
+def _registered(
+    output: Path,
+    config: dict[str, Any],
+    mission: Instance,
+    instance: Path,
+    plan: Path | None,
+    anew: bool,
+) -> Registry:
+    """Enter the campaign in the registry beside its table."""
+    from fiveroute.experiments import campaign
+    from fiveroute.experiments.registry import Registry, file_hash
+    from fiveroute.formats.native import instance_hash
+    from fiveroute.formats.plan_file import currents_hash
+
+    inputs = {
+        "instance": instance_hash(mission),
+        "currents": currents_hash(mission, instance),
+        "plan": None if plan is None else file_hash(plan),
+    }
+    path = output.with_suffix(".run.json")
+    return Registry.begin(path, config, inputs, campaign.__name__, force=anew)
 
 
 def _prepared(

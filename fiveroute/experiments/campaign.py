@@ -1,16 +1,18 @@
 """Campaigns: many runs on many cores or machines, with the same numbers wherever they run.
 
-The runs of a simulation are split into chunks. Each run draws its luck from the seed and its own
-number, so that it does not matter who sails it, or in which order.
+The runs of a simulation are split into chunks, and these shared out. Each run draws its luck from
+the seed and its own number, so that it does not matter who sails it, or in which order. Runs can be
+kept in a journal, with which a campaign that was killed goes on.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from typing import Any
 
+from fiveroute.experiments.journal import Journal
 from fiveroute.experiments.sharing import share_out
 from fiveroute.limits import Limits, Progress, ProgressCallback
 from fiveroute.plan import Plan
@@ -57,6 +59,7 @@ def sail_campaign(
     *,
     workers: int = 1,
     scheduler: str | None = None,
+    journal: Journal | None = None,
     limits: Limits | None = None,
     progress: ProgressCallback | None = None,
 ) -> SimulationResult:
@@ -70,29 +73,39 @@ def sail_campaign(
         Processes on this machine.
     scheduler
         Address of a Dask scheduler, as ``tcp://host:8786``; None stays on this machine.
+    journal
+        Keeps the runs as they are done, and has those that were; None keeps none.
     limits
         When to stop.
     progress
         Told how many runs are done.
     """
     clock = (limits or Limits()).start()
-    chunks = _chunks(campaign.runs, workers if scheduler is None else _ON_CLUSTER)
-    parts: list[SimulationResult] = []
-    shared = share_out(campaign.part, chunks, workers=workers, scheduler=scheduler)
-    with closing(shared) as results:
-        for part in results:
-            parts.append(part)
-            done = sum(len(part.runs) for part in parts)
+    known = [] if journal is None else journal.runs()[: campaign.runs]
+    missing = sorted({*range(campaign.runs)} - {run.run for run in known})
+    chunks = _chunks(missing or [0], workers if scheduler is None else _ON_CLUSTER)
+    runs = {run.run: run for run in known}
+    with closing(share_out(campaign.part, chunks, workers=workers, scheduler=scheduler)) as parts:
+        for part in parts:
+            if journal is not None:
+                journal.add(part.runs)
+            runs |= {run.run: run for run in part.runs}
             if progress is not None:
-                message = f"run {done} of {campaign.runs}"
+                message = f"run {len(runs)} of {campaign.runs}"
                 progress(Progress(clock.seconds, message=message))
             if clock.expired:
                 break
-    runs = sorted((run for part in parts for run in part.runs), key=lambda run: run.run)
-    return replace(parts[0], runs=tuple(runs), seconds=clock.seconds)
+    return replace(part, runs=tuple(runs[k] for k in sorted(runs)), seconds=clock.seconds)
 
 
-def _chunks(runs: int, workers: int) -> Chunks:
-    """First run and number of runs of every chunk."""
-    size = max(runs // (workers * _CHUNKS_A_WORKER), 1)
-    return [(first, min(size, runs - first)) for first in range(0, runs, size)]
+def _chunks(runs: Sequence[int], workers: int) -> Chunks:
+    """First run and number of runs of every chunk, whose runs follow each other."""
+    size = max(len(runs) // (workers * _CHUNKS_A_WORKER), 1)
+    chunks: Chunks = []
+    for run in runs:
+        first, length = chunks[-1] if chunks else (run, 0)
+        if length in (0, size) or run != first + length:
+            chunks.append((run, 1))
+        else:
+            chunks[-1] = first, length + 1
+    return chunks

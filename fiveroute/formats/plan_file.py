@@ -37,7 +37,7 @@ from fiveroute.result import Result, Status
 if TYPE_CHECKING:
     from fiveroute.paths.leg_table import LegTable
 
-__all__ = ["TAG", "PlanFile", "read_plan", "write_plan"]
+__all__ = ["TAG", "PlanFile", "currents_hash", "read_plan", "write_plan"]
 
 TAG = "fiveroute-plan/1"
 
@@ -196,7 +196,7 @@ class PlanFile:
         """
         if self.currents_hash is None:
             return
-        found = _currents_hash(self.instance, folder / "instance")
+        found = currents_hash(self.instance, folder / "instance")
         if found != self.currents_hash:
             raise InputError(
                 f"is that of another ocean: the file {self.instance.ocean.currents.file!r} has "
@@ -206,7 +206,7 @@ class PlanFile:
             )
 
 
-def _currents_hash(instance: Instance, source: Path) -> str | None:
+def currents_hash(instance: Instance, source: Path) -> str | None:
     """SHA-256 of the file of currents that an instance from a file names; None without one."""
     file = currents_file(instance, source)
     if file is None:
@@ -288,6 +288,6 @@ def write_plan(plan: PlanFile, path: Path, force: bool = False, source: Path | N
     }
     if plan.paths is not None:
         document["paths"] = plan.paths
-        if source is not None and (digest := _currents_hash(plan.instance, source)) is not None:
+        if source is not None and (digest := currents_hash(plan.instance, source)) is not None:
             document["currents_hash"] = digest
     write_text_atomically(path, layout(document) + "\n", force)

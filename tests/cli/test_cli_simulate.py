@@ -104,3 +104,28 @@ def test_bad_calls(call: Any, tiny: Path, arguments: tuple[str, str], message: s
     answer = call("simulate", tiny, *arguments)
     assert answer.code == 2
     assert message in answer.err
+
+
+def test_a_table_has_its_registry_beside_it(call: Any, tiny: Path, tmp_path: Path) -> None:
+    table, entry = tmp_path / "runs.csv", tmp_path / "runs.run.json"
+    assert call("simulate", tiny, "--runs", 3, "--seed", 5, "--output", table).code == 0
+    record = json.loads(entry.read_text())
+    assert record["config"]["seed"] == 5
+    assert record["ended"] is not None
+    assert sorted(file.name for file in tmp_path.iterdir() if "runs" in file.name) == [
+        "runs.csv",
+        "runs.run.json",
+    ]
+
+
+def test_another_campaign_that_is_not_over_is_not_touched(
+    call: Any, tiny: Path, tmp_path: Path
+) -> None:
+    table, entry = tmp_path / "runs.csv", tmp_path / "runs.run.json"
+    call("simulate", tiny, "--runs", 3, "--output", table)
+    table.unlink()
+    entry.write_text(entry.read_text().replace('"ended": "', '"ended": null, "once": "'))
+    answer = call("simulate", tiny, "--runs", 4, "--output", table)
+    assert answer.code == 2
+    assert "runs was 3, and is 4" in answer.err
+    assert call("simulate", tiny, "--runs", 3, "--output", table).code == 0

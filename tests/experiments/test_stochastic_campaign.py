@@ -36,6 +36,35 @@ def test_six_cells_a_scenario() -> None:
     assert replace(cells[0], runs=6).key != cells[0].key
 
 
+def test_a_vehicle_sails_the_same_ocean_for_all() -> None:
+    cells = [Cell(1, planner, 2, runs=2, actuation="vehicle") for planner in ("rmmp", "ftcmp")]
+    outcomes = [sail_cell(cell) for cell in cells]
+    for outcome in outcomes:
+        assert outcome.collisions == 0
+        assert outcome.min_clearance is not None
+        assert outcome.min_clearance > 0.0
+        assert 0.3 < outcome.mean < 1.0
+    assert not any(cell.gap for cell in cells_of(1, runs=2, actuation="vehicle"))
+
+
+@pytest.mark.filterwarnings(
+    "ignore::ResourceWarning", "ignore::pytest.PytestUnraisableExceptionWarning"
+)
+def test_a_cluster_that_loses_a_worker_sails_the_same_cells(tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    cells = [Cell(1, "rmmp", fleet, runs=2) for fleet in (1, 2, 3)]
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50
+    ) as cluster:
+        outcomes: list[Outcome] = []
+        for outcome in sail_cells(cells, tmp_path, scheduler=cluster.scheduler_address):
+            if not outcomes:
+                next(iter(cluster.workers.values())).process.process.kill()
+            outcomes.append(outcome)
+    assert sorted(outcomes, key=lambda outcome: outcome.fleet_size) == list(sail_cells(cells))
+    assert len(list(tmp_path.iterdir())) == len(cells)
+
+
 def test_figures_of_known_outcomes() -> None:
     figures = summary(made_up())
     assert figures["completion"]["five-tier"] == pytest.approx(0.9)
