@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,10 +15,13 @@ if TYPE_CHECKING:
     from fiveroute.experiments.registry import Registry
     from fiveroute.formats.plan_file import PlanFile
     from fiveroute.instance import Instance
-    from fiveroute.limits import Clock
+    from fiveroute.limits import Limits, ProgressCallback
     from fiveroute.paths.voyage import Voyage
     from fiveroute.plan import Plan
+    from fiveroute.sea.simulation import SimulationResult
     from fiveroute.sea.theatre import Theatre
+
+    _Sailed = tuple[Voyage, Theatre, SimulationResult]
 
 __all__ = ["command"]
 
@@ -79,6 +83,11 @@ CHANNELS = ("unlimited", "fsk", "psk", "nanomodem", "bursty")
 @click.option(
     "--events", type=click.Path(path_type=Path), help="Write every event to this JSON lines file."
 )
+@click.option(
+    "--tracks",
+    type=click.Path(path_type=Path),
+    help="Write the track of every AUV to this netCDF file, as CF trajectories.",
+)
 @options.output("Write a row a run to this file, .parquet or .csv.")
 @options.force
 @options.json_output
@@ -92,6 +101,7 @@ def command(
     scheduler: str | None,
     time_limit: float,
     events: Path | None,
+    tracks: Path | None,
     output: Path | None,
     force: bool,
     as_json: bool,
@@ -99,59 +109,37 @@ def command(
 ) -> None:
     """Carry PLAN out in the uncertain ocean of INSTANCE; without PLAN, plan first."""
     from fiveroute.cli import answers
-    from fiveroute.cli.files import require_output
     from fiveroute.cli.running import run
-    from fiveroute.cli.sailing import sail
     from fiveroute.experiments.campaign import Campaign, sail_campaign
-    from fiveroute.experiments.run_table import event_lines, require_table, write_table
     from fiveroute.formats import read_instance
-    from fiveroute.formats.files import write_text_atomically
     from fiveroute.formats.plan_file import read_plan
-    from fiveroute.limits import Limits, ProgressCallback
-    from fiveroute.sea.simulation import SimulationResult
+    from fiveroute.limits import Limits
 
-    for path in (events, output):
-        require_output(path, force)
-    if output is not None:
-        require_table(output)
+    files = _Files(events, tracks, output, force)
+    files.check()
     mission = read_instance(instance)
     filed = None if plan is None else read_plan(plan, mission)
-    log = events is not None
-    registry = None
-    if output is not None:
-        config = {**choices, "log": log}
-        anew = force or time_limit < math.inf  # such a plan cannot be made again
-        registry = _registered(output, config, mission, instance, plan, anew)
+    config = {**choices, "log": files.need_log}
+    anew = force or time_limit < math.inf  # a plan under a time limit cannot be made again
+    registry = output and _registered(output, config, mission, instance, plan, anew)
 
-    def work(limits: Limits, progress: ProgressCallback | None) -> tuple[Voyage, SimulationResult]:
+    def work(limits: Limits, progress: ProgressCallback | None) -> _Sailed:
         clock = limits.start()
-        voyage = sail(
-            mission,
-            instance,
-            limits,
-            straight_lines=choices["straight_lines"],
-            seed=choices["seed"],
-            progress=progress,
-        )
-        theatre, routes = _prepared(voyage, instance.parent, filed, clock, choices)
-        campaign = Campaign(theatre, routes, choices["runs"], _steering(choices, log))
+        voyage, theatre, routes = _prepared(mission, instance, filed, limits, choices, progress)
         result = sail_campaign(
-            campaign,
+            Campaign(theatre, routes, choices["runs"], _steering(config)),
             workers=workers,
             scheduler=scheduler,
-            journal=None if registry is None else registry.journal,
+            journal=registry.journal if registry else None,
             limits=clock.rest(),
             progress=progress,
         )
-        return voyage, result
+        return voyage, theatre, result
 
     outcome = run(work, Limits(time_limit))
-    voyage, result = outcome.value
-    if events is not None:
-        write_text_atomically(events, event_lines(voyage.instance, result), force)
-    if output is not None:
-        write_table(result, output, force)
-    if registry is not None:
+    voyage, _, result = outcome.value
+    files.write(*outcome.value, choices["seed"])
+    if registry:
         registry.end()
     answer = answers.simulation_answer(voyage, result, choices["seed"])
     if as_json:
@@ -159,6 +147,47 @@ def command(
     else:
         answers.print_simulation(answer)
     ctx.exit(130 if outcome.interrupted else 0)
+
+
+@dataclass(frozen=True, slots=True)
+class _Files:
+    """What is written of a simulation, each if its file is named."""
+
+    events: Path | None
+    tracks: Path | None
+    output: Path | None
+    force: bool
+
+    @property
+    def need_log(self) -> bool:
+        return self.events is not None or self.tracks is not None
+
+    def check(self) -> None:
+        """Refuse what could not be written, before any time is spent."""
+        from fiveroute.cli.files import require_output
+        from fiveroute.experiments.run_table import require_table
+        from fiveroute.experiments.track_file import require_tracks
+
+        for path in (self.events, self.output):
+            require_output(path, self.force)
+        require_tracks(self.tracks, self.force)
+        if self.output is not None:
+            require_table(self.output)
+
+    def write(self, voyage: Voyage, theatre: Theatre, result: SimulationResult, seed: int) -> None:
+        from fiveroute.experiments.run_table import event_lines, write_table
+        from fiveroute.experiments.track_file import write_tracks
+        from fiveroute.formats.files import write_text_atomically
+        from fiveroute.sea.tracks import tracks_of
+
+        instance = voyage.instance
+        if self.events is not None:
+            write_text_atomically(self.events, event_lines(instance, result), self.force)
+        if self.tracks is not None:
+            where = [(run.run, tracks_of(theatre, voyage.legs, run, seed)) for run in result.runs]
+            write_tracks(instance, where, self.tracks, self.force)
+        if self.output is not None:
+            write_table(result, self.output, self.force)
 
 
 def _registered(
@@ -185,17 +214,25 @@ def _registered(
 
 
 def _prepared(
-    voyage: Voyage, folder: Path, filed: PlanFile | None, clock: Clock, choices: dict[str, Any]
-) -> tuple[Theatre, Plan]:
-    """The theatre, and the routes of the plan file or else those of the rehearsed plan."""
+    mission: Instance,
+    file: Path,
+    filed: PlanFile | None,
+    limits: Limits,
+    choices: dict[str, Any],
+    progress: ProgressCallback | None,
+) -> tuple[Voyage, Theatre, Plan]:
+    """The legs, the theatre, and the routes of the plan file or else those of a rehearsed plan."""
     import numpy as np
 
+    from fiveroute.cli.sailing import sail
     from fiveroute.sea.departure import departure_plan
     from fiveroute.sea.sailed_luck import VehicleModel
     from fiveroute.sea.theatre import Theatre
     from fiveroute.tiers.preplanning import fleet_size_of
 
-    seed = choices["seed"]
+    clock, seed = limits.start(), choices["seed"]
+    straight = choices["straight_lines"]
+    voyage = sail(mission, file, limits, straight_lines=straight, seed=seed, progress=progress)
     routes = None if filed is None else _routes(filed, voyage)
     if routes is not None:
         size = len(routes.routes)
@@ -204,7 +241,7 @@ def _prepared(
         size = choices["fleet_size"] or fleet_size_of(voyage.instance, voyage.travel, rng=rng)
     theatre = Theatre.of(voyage.instance, size, travel=voyage.travel)
     if choices["actuation"] == "vehicle":
-        theatre = theatre.sailed_by(VehicleModel.of(voyage, folder), seed)
+        theatre = theatre.sailed_by(VehicleModel.of(voyage, file.parent), seed)
     if routes is None:
         routes = departure_plan(
             theatre.by_law,
@@ -213,16 +250,16 @@ def _prepared(
             seed=seed,
             limits=clock.rest(),
         )
-    return theatre, routes
+    return voyage, theatre, routes
 
 
-def _steering(choices: dict[str, Any], log: bool) -> dict[str, Any]:
-    """The arguments of `simulate_fleet` among the choices."""
+def _steering(config: dict[str, Any]) -> dict[str, Any]:
+    """The arguments of `simulate_fleet` among the options."""
     from fiveroute.sea.channel import PRESETS
 
-    same = ("planner", "reserve", "loss", "failures", "seed", "gap")
-    steering = {name: choices[name] for name in same}
-    return steering | {"channel": PRESETS[choices["channel"]], "log": log}
+    same = ("planner", "reserve", "loss", "failures", "seed", "gap", "log")
+    steering = {name: config[name] for name in same}
+    return steering | {"channel": PRESETS[config["channel"]]}
 
 
 def _routes(filed: PlanFile, voyage: Voyage) -> Plan:

@@ -18,6 +18,7 @@ from pathlib import Path as File
 import numpy as np
 from numpy.typing import NDArray
 
+from fiveroute.errors import InputError
 from fiveroute.kernels import kernel
 from fiveroute.ocean.barriers import Barriers, distance_to_leg
 from fiveroute.paths.leg_table import LegTable
@@ -83,6 +84,12 @@ class VehicleModel:
             Folder that the name of the file of currents is relative to.
         """
         instance = voyage.instance
+        if instance.travel_times is not None:
+            raise InputError(
+                "a vehicle sails from position to position, not by a table of times; simulate "
+                "with --actuation abstraction",
+                field="travel_times",
+            )
         stops, speed = instance.points, instance.fleet.speed
         grid = barriers = None
         if voyage.legs is not None:

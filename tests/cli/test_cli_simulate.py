@@ -79,6 +79,20 @@ def test_a_vehicle_sails_the_legs(call: Any, tiny: Path, tmp_path: Path) -> None
     assert tables[0] == tables[1]
 
 
+@pytest.mark.parametrize("actuation", ["abstraction", "vehicle"])
+def test_the_tracks_are_written(call: Any, tiny: Path, tmp_path: Path, actuation: str) -> None:
+    import xarray as xr
+
+    path = tmp_path / "tracks.nc"
+    args = ("simulate", tiny, "--actuation", actuation, "--runs", 2, "--tracks", path)
+    assert call(*args).code == 0
+    with xr.open_dataset(path) as data:
+        assert data["run"].to_numpy().tolist() == [0, 1]
+        assert data["row_size"].sum().item() == data.sizes["obs"] > 4
+        assert data["x"][0].item() == data["y"][0].item() == 0.0
+    assert call(*args).code == 2
+
+
 def test_the_choices_are_those_there_are() -> None:
     """The command line names them without importing what they stand for."""
     assert set(simulate.PLANNERS) == set(PLANNERS)
