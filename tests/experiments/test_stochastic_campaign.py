@@ -52,7 +52,7 @@ def test_a_vehicle_sails_the_same_ocean_for_all() -> None:
 )
 def test_a_cluster_that_loses_a_worker_sails_the_same_cells(tmp_path: Path) -> None:
     distributed = pytest.importorskip("distributed")
-    cells = [Cell(1, "rmmp", fleet, runs=2) for fleet in (1, 2, 3)]
+    cells = [Cell(1, "ftcmp", fleet, runs=2) for fleet in (1, 2, 3)]
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50
     ) as cluster:
