@@ -17,7 +17,8 @@ import hashlib
 import json
 from collections.abc import Generator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -177,9 +178,11 @@ def sail_cell(cell: Cell) -> Outcome:
     if fleet is None:
         rng = np.random.default_rng((cell.seed, cell.scenario))
         fleet = fleet_size_of(instance, rng=rng)
-    theatre, seed = Theatre.of(instance, fleet), cell.seed * 1000 + cell.scenario
+    seed = cell.seed * 1000 + cell.scenario
     if cell.actuation == "vehicle":
-        theatre = theatre.sailed_by(VehicleModel.of(Voyage.straight(instance)), seed)
+        theatre = replace(_sailed(cell.scenario, seed), problem=instance.problem(fleet))
+    else:
+        theatre = Theatre.of(instance, fleet)
     plan = departure_plan(theatre.by_law, cell.planner, reserve=cell.reserve, seed=cell.seed)
     result = simulate_fleet(
         theatre,
@@ -203,6 +206,13 @@ def sail_cell(cell: Cell) -> Outcome:
         result.lost,
         result.min_clearance,
     )
+
+
+@cache
+def _sailed(scenario: int, seed: int) -> Theatre:
+    """A scenario whose legs a vehicle sails; the law that is fitted to it knows no fleet."""
+    instance = paper_scenario(scenario)
+    return Theatre.of(instance, 1).sailed_by(VehicleModel.of(Voyage.straight(instance)), seed)
 
 
 def sail_cells(

@@ -12,7 +12,8 @@ mattered sails again among all.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path as File
 
 import numpy as np
@@ -26,7 +27,7 @@ from fiveroute.paths.voyage import Voyage
 from fiveroute.sea.luck import Leg
 from fiveroute.tiers.actuation import uncertainty_of
 from fiveroute.vehicle.dynamics import Vehicle
-from fiveroute.vehicle.fit import Fit, SailedLegs, fit_uncertainty, sail_legs
+from fiveroute.vehicle.fit import Estimate, Fit, SailedLegs, fit_uncertainty, sail_legs
 from fiveroute.vehicle.guidance import Guidance
 from fiveroute.vehicle.obstacle_avoidance import Avoidance
 from fiveroute.vehicle.sailed_track import Outcome, SailedTrack
@@ -44,11 +45,11 @@ _CORRIDOR = 150.0
 _OVERTIME = 1.5
 """Endurances for which a current that varies is known; it stays as it is thereafter."""
 
-_EXTREME = 0.02
-"""Share of the legs that counts as extreme, on either side."""
+_STRIDES = 4
+"""Legs of a walk that the fit is made of."""
 
 _NEIGHBOURS = 6
-"""The legs that the fit is made of lead to one of so many nearest stops, as those of routes do."""
+"""They lead to one of so many nearest stops, as the legs of routes do."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -141,41 +142,50 @@ class VehicleModel:
                 break
         return sailed
 
-    def fit(self, planned: Floats, *, seed: int = 0, oceans: int = 25, legs: int = 8) -> Fit:
+    def fit(self, planned: Floats, *, seed: int = 0, oceans: int = 120, walks: int = 2) -> Fit:
         """What (12) should assume of legs such as routes are made of.
 
-        The one leg in fifty that takes longest for its length, as it barely makes headway, counts
-        as the next one does, and so does the one that takes least: the squares of a few would
-        make the whole sea look rough.
+        (12) takes legs for independent, but those of a route follow each other through the same
+        water. So walks of several legs are sailed, and the drift is the one by which independent
+        legs would be as late together as these are: with the walk's delay d, less the mean one,
+
+            drift^2 = mean of d^2 / sum of t^2 over the legs of the walk.
 
         Parameters
         ----------
         planned
-            Planned leg times in seconds, shape (n + 2, n + 2).
+            Planned leg times t in seconds, shape (n + 2, n + 2).
         seed
             Seed of the oceans and of the choice of legs; not that of a simulation.
-        oceans, legs
-            Number of oceans, and of legs sailed in each.
+        oceans, walks
+            Number of oceans, and of walks sailed in each.
         """
         rng = np.random.default_rng((seed, 6))
         if self.legs is not None:
             planned = np.where(np.isfinite(self.legs.times), planned, np.inf)
         truths = [self.ocean(seed, run) for run in range(oceans)]
-        chosen = [(truth, leg) for truth in truths for leg in _some_legs(planned, legs, rng)]
-        tracks = [self.track(*leg) for _, leg in chosen]
-        sailed = sail_legs(
+        ways = [(truth, _walk(planned, rng)) for truth in truths for _ in range(walks)]
+        sailed = self._both_ways([(truth, leg) for truth, way in ways for leg in way], planned)
+        fit = fit_uncertainty(sailed)
+        walk = np.repeat(np.arange(len(ways)), [len(way) for _, way in ways])
+        drift = _drift_of_walks(sailed, walk, fit.delay.value)
+        return replace(fit, drift=drift)
+
+    def _both_ways(
+        self, legs: Sequence[tuple[TrueOcean, tuple[int, int]]], planned: Floats
+    ) -> SailedLegs:
+        """Legs sailed without and with unknown obstacles."""
+        tracks = [self.track(*leg) for _, leg in legs]
+        near = [self._near(o.barriers, track) for (o, _), track in zip(legs, tracks, strict=True)]
+        return sail_legs(
             tracks,
-            [float(planned[leg]) for _, leg in chosen],
-            [truth.grid for truth, _ in chosen],
-            [
-                self._near(truth.barriers, track)
-                for (truth, _), track in zip(chosen, tracks, strict=True)
-            ],
+            [float(planned[leg]) for _, leg in legs],
+            [ocean.grid for ocean, _ in legs],
+            near,
             self.vehicle,
             guidance=self.guidance,
             avoidance=self.avoidance,
         )
-        return fit_uncertainty(_without_extremes(sailed))
 
     def _near(self, barriers: Barriers, track: Floats) -> Barriers:
         """Barriers without the discs that are far from a track."""
@@ -239,29 +249,32 @@ def _strays(positions: Floats, track: Floats, within: float) -> bool:
     return False
 
 
-def _some_legs(planned: Floats, count: int, rng: np.random.Generator) -> list[tuple[int, int]]:
-    """Legs between near stops, of which a path is known."""
-    size = len(planned)
-    legs = []
-    for tail in rng.integers(size - 1, size=count).tolist():
+def _walk(planned: Floats, rng: np.random.Generator) -> list[tuple[int, int]]:
+    """Legs that follow each other from stop to near stop, as those of a route do."""
+    last = len(planned) - 1
+    tail, legs = int(rng.integers(last)), []
+    been = {0}
+    for _ in range(_STRIDES):
+        been.add(tail)
         times = planned[tail].copy()
-        times[[0, tail]] = math.inf
+        times[[*been]] = math.inf
         times[times == 0.0] = math.inf  # the same place
         near = [head for head in np.argsort(times)[:_NEIGHBOURS].tolist() if times[head] < math.inf]
-        if near:
-            legs.append((tail, near[int(rng.integers(len(near)))]))
+        if tail == last or not near:
+            break
+        head = near[int(rng.integers(len(near)))]
+        legs.append((tail, head))
+        tail = head
     return legs
 
 
-def _without_extremes(legs: SailedLegs) -> SailedLegs:
-    """The legs that arrived, their unhindered times within quantiles as shares of the planned."""
-    arrived = np.isfinite(legs.unhindered) & np.isfinite(legs.sailed)
-    if not arrived.any():
-        return legs
-    planned, unhindered = legs.planned[arrived], legs.unhindered[arrived]
-    share = unhindered / planned
-    moderate = planned * share.clip(*np.quantile(share, (_EXTREME, 1.0 - _EXTREME)))
-    lost = legs.sailed[arrived] - unhindered
-    return SailedLegs(
-        planned, legs.lengths_km[arrived], moderate, moderate + lost, legs.manoeuvres[arrived]
-    )
+def _drift_of_walks(legs: SailedLegs, walk: NDArray[np.int64], delay: float) -> Estimate:
+    """The drift of independent legs that are as late together as those of walks."""
+    arrived = np.isfinite(legs.unhindered)
+    planned = np.where(arrived, legs.planned, 0.0)
+    late = np.where(arrived, legs.unhindered, 0.0) - (1.0 + delay) * planned
+    squares = np.bincount(walk, planned**2)
+    sailed = squares > 0.0
+    shares = np.bincount(walk, late)[sailed] ** 2 / squares[sailed]
+    drift = math.sqrt(float(shares.mean()))
+    return Estimate(drift, drift / math.sqrt(2.0 * len(shares)))

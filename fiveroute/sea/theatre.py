@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -88,8 +87,9 @@ class Theatre:
         planned = self.problem.travel
         fit = model.fit(planned, seed=seed + _TRIAL_OCEANS)
         delay = fit.delay.value
-        scatter = math.sqrt(max(fit.drift.value**2 - delay**2, 0.0)) / (1.0 + delay)
-        uncertainty = replace(fit.uncertainty, drift=scatter, floor=self.law.floor)
+        uncertainty = replace(
+            fit.uncertainty, drift=fit.drift.value / (1.0 + delay), floor=self.law.floor
+        )
         law = leg_law((1.0 + delay) * planned, self.lengths_km, uncertainty)
         return replace(self, law=law, model=model)
 
