@@ -309,7 +309,7 @@ def plan(
         workers=workers,
         progress=progress,
     )
-    return FleetPlan(voyage, planned.problem, planned.result, planned)
+    return FleetPlan(voyage, planned.problem, _known(voyage, planned.result), planned)
 
 
 def solve(
@@ -357,4 +357,12 @@ def solve(
     )
     problem = voyage.instance.problem(fleet_size, voyage.travel)
     result = solve_from_good_plan(problem, method, clock.rest(), seed=seed, progress=progress)
-    return FleetPlan(voyage, problem, result)
+    return FleetPlan(voyage, problem, _known(voyage, result))
+
+
+def _known(voyage: Voyage, result: Result) -> Result:
+    """A result without its proof where an interruption left legs open."""
+    if voyage.is_complete:
+        return result
+    status = Status.NO_SOLUTION if result.plan is None else Status.FEASIBLE
+    return replace(result, status=status, bound=None)

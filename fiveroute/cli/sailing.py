@@ -60,9 +60,9 @@ def sail(
 def name_unreachable(voyage: Voyage) -> None:
     """Say on standard error which nodes cannot be reached, if any."""
     if voyage.unreachable:
+        why = "cannot be reached" if voyage.is_complete else "have no path yet"
         click.echo(
-            "fiveroute: these nodes cannot be reached and are not visited: "
-            f"{', '.join(voyage.unreachable)}",
+            f"fiveroute: these nodes {why} and are not visited: {', '.join(voyage.unreachable)}",
             err=True,
         )
 

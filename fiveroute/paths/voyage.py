@@ -27,12 +27,16 @@ class Voyage:
         Leg times and paths between its stops; None for straight lines in still water.
     unreachable
         Ids of the nodes that cannot be reached, or from which nobody gets home.
+    is_complete
+        Whether that is known of every node: an interruption leaves legs open, so that nothing
+        is proved about the mission.
     """
 
     mission: Instance
     instance: Instance
     legs: LegTable | None = None
     unreachable: tuple[str, ...] = ()
+    is_complete: bool = True
 
     @classmethod
     def straight(cls, mission: Instance) -> Voyage:

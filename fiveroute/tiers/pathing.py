@@ -120,7 +120,7 @@ def at_sea(
         Folder that the name of its file of currents is relative to.
     limits
         When to stop; legs that are not planned by then are straight lines in the current, or
-        the paths of the reference where these are blocked.
+        the first way round what blocks these, which is looked for in any case.
     seed
         Seed of the random numbers.
     progress
@@ -131,12 +131,13 @@ def at_sea(
     current = stated_current(instance, folder)
     waters = waters_of(instance, current)
     key = table_key(waters, instance.points, source_digest(__name__), seed)
-    table = kept_table(key)
+    table, is_complete = kept_table(key), True
     if table is None:
         clock = (limits or Limits()).start()
         table = plan_legs(
             waters, current, instance.points, limits=clock.rest(), seed=seed, progress=progress
         )
+        is_complete = not clock.interrupted
         if not clock.expired:  # no leg was left as it was
             keep_table(key, table)
     lost = table.unreachable()
@@ -146,6 +147,7 @@ def at_sea(
         replace(instance, nodes=tuple(instance.nodes[node - 1] for node in kept)),
         table.take([0, *kept, len(instance.nodes) + 1]),
         tuple(instance.nodes[node - 1].id for node in lost),
+        is_complete,
     )
 
 
@@ -272,14 +274,21 @@ def plan_legs(
     ends = points[np.array(legs, dtype=np.int64).reshape(-1, 2)]
     straight = are_straight(waters, ends[:, 0], ends[:, 1])
     curved = [leg for leg, proved in zip(legs, straight, strict=True) if not proved]
-    guesses = _ways_round(waters, points, [leg for leg in curved if not paths[leg].is_found], clock)
+    # Whether a leg can be sailed at all is no question of time: only an interruption leaves that
+    # open.
+    patient = replace(clock.limits, time=math.inf).start()
+    blocked = [leg for leg in curved if not paths[leg].is_found]
+    guesses = _ways_round(waters, points, blocked, patient)
 
     def improve(leg: Leg) -> None:
         start, goal = points[list(leg)]
         rng, guess = np.random.default_rng((seed, *leg)), guesses.get(leg, ())
-        if not clock.expired:
-            path = evolve_path(waters, start, goal, guesses=guess, rng=rng, clock=clock)
-            paths[leg] = path
+        ways = (paths[leg], *(track_path(waters, track, 0.0) for track in guess))
+        paths[leg] = min(ways, key=lambda path: path.duration)
+        until = clock if paths[leg].is_found else patient
+        if not until.expired:
+            path = evolve_path(waters, start, goal, guesses=guess, rng=rng, clock=until)
+            paths[leg] = min(path, paths[leg], key=lambda path: path.duration)
 
     def timed(leg: Leg) -> tuple[float, Floats]:
         track = _thinned(waters, paths[leg].waypoints)

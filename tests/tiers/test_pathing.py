@@ -14,6 +14,7 @@ from shapely import Point as Spot
 
 from fiveroute.check_paths import sailing_time
 from fiveroute.errors import InputError
+from fiveroute.fleet_plan import plan
 from fiveroute.instance import (
     Circle,
     Currents,
@@ -29,6 +30,7 @@ from fiveroute.instance import (
 from fiveroute.limits import Limits, Progress
 from fiveroute.ocean.stated import stated_current
 from fiveroute.paths.legs import Waters
+from fiveroute.result import Status
 from fiveroute.tiers.pathing import at_sea, plan_legs, plan_path, waters_of
 
 STILL = Ocean()
@@ -113,6 +115,31 @@ def test_an_expired_clock_leaves_straight_lines() -> None:
     sea, current = waters(instance.ocean), stated_current(instance)
     table = plan_legs(sea, current, instance.points, limits=Limits(time=0.0))
     assert table.times[0, 1] == sailing_time(instance.points[[0, 1]], current, 1.0)
+
+
+def test_no_time_at_all_still_finds_ways_round_what_blocks_them() -> None:
+    walls = Ocean(
+        land=(
+            Polygon(((200.0, 3000.0), (900.0, 3000.0), (900.0, 3100.0), (200.0, 3100.0))),
+            Polygon(((1700.0, 600.0), (2300.0, 600.0), (2300.0, 700.0), (1700.0, 700.0))),
+        ),
+        obstacles=(Circle(3000.0, 1000.0, 250.0), Circle(600.0, 600.0, 100.0)),
+    )
+    voyage = at_sea(mission(walls), limits=Limits(time=0.0))
+    assert voyage.unreachable == ()
+    assert voyage.travel is not None
+    assert np.isfinite(voyage.travel[:-1, 1:]).all()
+    assert voyage.is_complete
+
+
+def test_an_interruption_proves_nothing() -> None:
+    limits = Limits()
+    limits.interrupt.set()
+    instance = mission(Ocean(obstacles=(Circle(2000.0, 1500.0, 250.0),)))
+    assert not at_sea(instance, limits=limits).is_complete
+    cut_off = plan(instance, bound="exact", limits=limits)
+    assert cut_off.bound is None
+    assert cut_off.status is not Status.OPTIMAL
 
 
 def test_a_node_that_cannot_be_reached_is_named_and_left_out() -> None:
