@@ -27,6 +27,7 @@ from fiveroute.instance import Circle, Instance, Polygon
 from fiveroute.ocean.currents import Current
 from fiveroute.ocean.local_plane import LocalPlane
 from fiveroute.ocean.stated import stated_current
+from fiveroute.paths.thinning import thinned
 from fiveroute.vehicle_files.mission import (
     Kind,
     Mission,
@@ -37,7 +38,6 @@ from fiveroute.vehicle_files.mission import (
     Zone,
 )
 from fiveroute.vehicle_files.safety import require_depths, require_feasible, require_passable
-from fiveroute.vehicle_files.simplify import simplified
 
 __all__ = ["TOLERANCE", "Choices", "mission_of"]
 
@@ -130,7 +130,7 @@ def _safe_tracks(
     assert tracks is not None
     require_passable(filed, tracks, current)
     require_feasible(sailed, folder)
-    thin = [[simplified(path, tolerance) for path in paths] for paths in tracks]
+    thin = [[thinned(path, tolerance) for path in paths] for paths in tracks]
     destination = len(filed.instance.nodes) + 1
     for fault in check_paths(filed.instance, filed.plan, thin, current):
         assert fault.auv is not None

@@ -1,0 +1,217 @@
+"""Runs of a fleet at sea, for people who call fiveroute from Python: tiers 4 and 5.
+
+    import fiveroute as fr
+
+    sea = fr.read("sea.json")
+    runs = fr.simulate(sea, fr.plan(sea), runs=50)
+    print(runs.completions.mean(), runs.late_returns)
+
+`prepare` brings a mission as far as the pier: legs planned, the law of what they really take or the
+vehicle that sails them, and the routes to set out with. `simulate` sails it again and again.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from fiveroute.fleet_plan import FleetPlan, sail
+from fiveroute.instance import Instance
+from fiveroute.limits import Limits, ProgressCallback
+from fiveroute.paths.voyage import Voyage
+from fiveroute.plan import Plan
+
+if TYPE_CHECKING:
+    from fiveroute.formats.plan_file import PlanFile
+    from fiveroute.sea.simulation import SimulationResult
+    from fiveroute.sea.theatre import Theatre
+
+__all__ = ["Actuation", "Pier", "prepare", "simulate"]
+
+Actuation = Literal["abstraction", "vehicle"]
+"""What a leg takes: equation (12), or what a vehicle needs for it in a true current."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pier:
+    """A fleet about to leave.
+
+    Parameters
+    ----------
+    voyage
+        The mission and its planned legs.
+    theatre
+        What the simulation knows of it.
+    routes
+        The routes that the fleet sets out with.
+    """
+
+    voyage: Voyage
+    theatre: Theatre
+    routes: Plan
+
+
+def prepare(
+    instance: Instance,
+    filed: PlanFile | None = None,
+    *,
+    planner: str = "five-tier",
+    fleet_size: int | None = None,
+    reserve: float = 1.645,
+    actuation: Actuation = "abstraction",
+    straight_lines: bool = False,
+    limits: Limits | None = None,
+    seed: int = 0,
+    progress: ProgressCallback | None = None,
+    folder: Path | None = None,
+) -> Pier:
+    """Plan the legs, and the routes where no plan is given: the one that does best in rehearsals.
+
+    Parameters
+    ----------
+    instance
+        The mission.
+    filed
+        A plan for it.
+    planner
+        Who will steer, see `fiveroute.sea.simulation.PLANNERS`.
+    fleet_size
+        Number of AUVs; None takes that of the plan, of the instance, or else estimates it.
+    reserve
+        Standard deviations of the remaining time that AUVs keep in hand.
+    actuation
+        What a leg takes.
+    straight_lines
+        Whether to ignore the ocean.
+    limits
+        When to stop.
+    seed
+        Seed of the random numbers.
+    progress
+        Told what is at work.
+    folder
+        Folder that the name of the instance's file of currents is relative to.
+    """
+    from fiveroute.sea.departure import departure_plan
+    from fiveroute.sea.sailed_luck import VehicleModel
+    from fiveroute.sea.theatre import Theatre
+    from fiveroute.tiers.preplanning import fleet_size_of
+
+    clock = (limits or Limits()).start()
+    voyage = sail(
+        instance,
+        folder=folder,
+        straight_lines=straight_lines,
+        limits=clock.limits,
+        seed=seed,
+        progress=progress,
+    )
+    routes = None if filed is None else _routes(filed, voyage)
+    if routes is not None:
+        size = len(routes.routes)
+    else:
+        rng = np.random.default_rng(seed)
+        size = fleet_size or fleet_size_of(voyage.instance, voyage.travel, rng=rng)
+    theatre = Theatre.of(voyage.instance, size, travel=voyage.travel)
+    if actuation == "vehicle":
+        theatre = theatre.sailed_by(VehicleModel.of(voyage, folder), seed)
+    if routes is None:
+        routes = departure_plan(
+            theatre.by_law, planner, reserve=reserve, seed=seed, limits=clock.rest()
+        )
+    return Pier(voyage, theatre, routes)
+
+
+def simulate(
+    instance: Instance,
+    plan: FleetPlan | None = None,
+    *,
+    planner: str = "five-tier",
+    runs: int = 50,
+    fleet_size: int | None = None,
+    reserve: float = 1.645,
+    loss: float | None = None,
+    failures: float = 0.0,
+    actuation: Actuation = "abstraction",
+    gap: bool = False,
+    straight_lines: bool = False,
+    workers: int = 1,
+    limits: Limits | float | None = None,
+    seed: int = 0,
+    progress: ProgressCallback | None = None,
+    folder: Path | None = None,
+) -> SimulationResult:
+    """Carry a plan out in many oceans, the same ones for every planner.
+
+    Parameters
+    ----------
+    instance
+        The mission.
+    plan
+        The plan to set out with; None plans for the sea that is to be expected.
+    planner
+        Who steers, see `fiveroute.sea.simulation.PLANNERS`.
+    runs
+        Oceans to sail in.
+    fleet_size
+        Number of AUVs; None takes that of the plan, of the instance, or else estimates it.
+    reserve
+        Standard deviations of the remaining time that AUVs keep in hand; 0 is the paper.
+    loss, failures
+        Probabilities that a message is lost, and that an AUV fails in mid-mission.
+    actuation
+        What a leg takes.
+    gap
+        Whether to compare every run with a clairvoyant plan.
+    straight_lines
+        Whether to ignore the ocean.
+    workers
+        Processes on this machine.
+    limits
+        Seconds, or limits.
+    seed
+        Seed of the random numbers; the same on any number of workers.
+    progress
+        Told how many runs are done.
+    folder
+        Folder that the name of the instance's file of currents is relative to.
+    """
+    from fiveroute.experiments.campaign import Campaign, sail_campaign
+
+    clock = Limits.of(limits).start()
+    pier = prepare(
+        instance,
+        None if plan is None else plan.filed(),
+        planner=planner,
+        fleet_size=fleet_size,
+        reserve=reserve,
+        actuation=actuation,
+        straight_lines=straight_lines,
+        limits=clock.limits,
+        seed=seed,
+        progress=progress,
+        folder=folder,
+    )
+    how = {
+        "planner": planner,
+        "reserve": reserve,
+        "loss": loss,
+        "failures": failures,
+        "gap": gap,
+        "seed": seed,
+    }
+    return sail_campaign(
+        Campaign(pier.theatre, pier.routes, runs, how),
+        workers=workers,
+        limits=clock.rest(),
+        progress=progress,
+    )
+
+
+def _routes(filed: PlanFile, voyage: Voyage) -> Plan:
+    """The routes of a plan file over the nodes that can be reached."""
+    vertex = {node.id: k for k, node in enumerate(voyage.instance.nodes, start=1)}
+    return Plan.of([vertex[name] for name in route if name in vertex] for route in filed.routes)
