@@ -17,25 +17,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from fiveroute.errors import InputError
 from fiveroute.heuristics.allocation import k_means, sub_routes, voronoi
 from fiveroute.heuristics.fleet_search import fleet_search
 from fiveroute.heuristics.pick_up import trim
 from fiveroute.heuristics.sggarp import optimise_route
 from fiveroute.heuristics.shortest_routes import shortest_routes
-from fiveroute.instance import Instance
 from fiveroute.limits import Clock, Limits
-from fiveroute.mission import plan_mission
 from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
 from fiveroute.tiers.actuation import expected_legs
-from fiveroute.tiers.preplanning import fleet_size_of
 
-__all__ = ["CAUTIONS", "departure_plan", "rehearse", "slack_plan"]
+__all__ = ["CAUTIONS", "departure_plan", "rehearse"]
 
 CAUTIONS = ((1.0, 2.0), (1.0, 3.0), (1.0, 5.0), (1.05, 2.0), (1.05, 3.0), (1.05, 5.0))
 """Pairs of slack and `home` that plans are made with."""
@@ -115,42 +110,6 @@ def rehearse(
         if result.completions.mean() > most:
             best, most = plan, float(result.completions.mean())
     return best
-
-
-def slack_plan(
-    instance: Instance,
-    slack: float = 1.0,
-    *,
-    fleet_size: int | None = None,
-    travel: NDArray[np.float64] | None = None,
-    seed: int = 0,
-    limits: Limits | None = None,
-) -> Plan:
-    """The plan of tiers 1 and 2 for legs that all take longer by one factor.
-
-    Parameters
-    ----------
-    instance
-        The mission.
-    slack
-        Factor by which planned legs are inflated, at least 1.
-    fleet_size
-        Number of AUVs; None takes that of the instance, or else the estimate of tier 1, by
-        legs without slack.
-    travel
-        Planned leg times in seconds, shape (n + 2, n + 2); None sails straight lines.
-    seed
-        Seed of the random numbers.
-    limits
-        When to stop.
-    """
-    if not 1.0 <= slack < np.inf:
-        raise InputError("must be finite and at least 1", field="slack", value=slack)
-    if fleet_size is None:
-        fleet_size = fleet_size_of(instance, travel, rng=np.random.default_rng(seed))
-    legs = slack * (instance.travel if travel is None else travel)
-    mission = plan_mission(instance, travel=legs, fleet_size=fleet_size, limits=limits, seed=seed)
-    return mission.result.plan or Plan.empty(fleet_size)
 
 
 def _cautious_plan(theatre: Theatre, slack: float, home: float, rng: np.random.Generator) -> Plan:
