@@ -1,0 +1,43 @@
+"""The reserve keeps what it promises: a course without time in hand is in time with Phi(z)."""
+
+from dataclasses import replace
+from statistics import NormalDist
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from fiveroute.sea.course import Course, in_hand, outlook
+from fiveroute.sea.luck import Luck
+from fiveroute.sea.theatre import Theatre
+
+ROUTES = [(), (4,), (7, 2, 9), (3, 1, 12, 6, 20, 15, 8)]
+
+
+def arrivals(theatre: Theatre, course: Course, runs: int) -> NDArray[np.float64]:
+    problem = theatre.problem
+    stops = np.array([course.anchor, *course.route, problem.destination])
+    start = course.time + problem.service[stops[1:]].sum()
+    seas = (Luck(theatre.law, 5, run).matrix() for run in range(runs))
+    return np.array([start + legs[stops[:-1], stops[1:]].sum() for legs in seas])
+
+
+@pytest.mark.parametrize("route", ROUTES)
+@pytest.mark.parametrize("z", [0.0, 1.0, 1.645])
+def test_a_course_without_time_in_hand_is_in_time_as_promised(
+    theatre: Theatre, route: tuple[int, ...], z: float
+) -> None:
+    view = outlook(theatre.problem, theatre.law, z)
+    course = Course(0, 1000.0, 0.0, 20_000.0, route)
+    tight = replace(course, budget=course.budget - in_hand(view, course))
+    in_time = (arrivals(theatre, course, 2000) <= tight.budget).mean()
+    assert in_hand(view, tight) == pytest.approx(0.0, abs=1e-6)
+    assert in_time == pytest.approx(NormalDist().cdf(z), abs=0.04)
+
+
+def test_an_uncertain_anchor_counts(theatre: Theatre) -> None:
+    view = outlook(theatre.problem, theatre.law, 2.0)
+    sure = Course(0, 0.0, 0.0, 9000.0, ())
+    variance = float(view.variance[0, -1])
+    unsure = replace(sure, spread=3.0 * variance)
+    assert in_hand(view, sure) - in_hand(view, unsure) == pytest.approx(2.0 * variance**0.5)
