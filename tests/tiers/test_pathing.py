@@ -110,11 +110,23 @@ def test_a_leg_does_not_depend_on_the_others() -> None:
     assert np.isinf(alone.times[0, 4])
 
 
+def test_times_taken_in_haste_are_never_too_short() -> None:
+    instance = mission(EDDIES)
+    current = stated_current(instance)
+    sea = waters_of(instance, current)
+    table = plan_legs(sea, current, instance.points, limits=Limits(time=0.0))
+    for leg in table.planned():
+        exact = sailing_time(table.track(*leg), current, 1.0)
+        assert exact <= table.times[leg] <= 1.003 * exact
+
+
 def test_an_expired_clock_leaves_straight_lines() -> None:
     instance = mission(replace(EDDIES, obstacles=()))
     sea, current = waters(instance.ocean), stated_current(instance)
     table = plan_legs(sea, current, instance.points, limits=Limits(time=0.0))
-    assert table.times[0, 1] == sailing_time(instance.points[[0, 1]], current, 1.0)
+    assert (table.track(0, 1) == instance.points[[0, 1]]).all()
+    exact = sailing_time(instance.points[[0, 1]], current, 1.0)
+    assert table.times[0, 1] == pytest.approx(exact, rel=2e-3)
 
 
 def test_no_time_at_all_still_finds_ways_round_what_blocks_them() -> None:
