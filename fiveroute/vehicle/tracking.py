@@ -45,6 +45,7 @@ _PROGRESS = 1.0  # metres that count as progress
 _SLOWEST = 20.0  # times what still water takes, after which a voyage is broken off
 _X, _Y, _HEADING, _ERROR, _MANOEUVRE = range(5)  # columns of the log
 _ARRIVED, _SWEPT, _BLOCKED, _COLLIDED, _LATE = map(int, Outcome)
+_UNDER_WAY = -1
 
 
 class _Course(NamedTuple):
@@ -57,6 +58,19 @@ class _Course(NamedTuple):
     switch: float
     reach: float
     patience: float
+
+
+class _Way(NamedTuple):
+    """What of a course is made.
+
+    The leg; whether it closes in on the last waypoint; metres left when it last progressed, and
+    when that was.
+    """
+
+    leg: int
+    homing: bool
+    best: float
+    progressed: float
 
 
 class _Place(NamedTuple):
@@ -198,40 +212,27 @@ def _sail(
 ) -> tuple[int, int]:
     """Fill in the log and the arrivals; return the rows that were written and the outcome."""
     echoes, heard, ping = np.empty((_ECHOES, 2)), 0, course.begin
-    leg, homing, memory, desired = 0, False, 0.0, state.heading
+    way, memory, desired = _Way(0, False, math.inf, course.begin), 0.0, state.heading
     manoeuvre, number = Manoeuvre(0.0, desired, -math.inf, False), 0
-    best, progressed = math.inf, course.begin
     free = clearance(barriers, state.x, state.y)  # no barrier is nearer than this
     arrivals[0] = course.begin
     for k in range(len(log)):
         t = course.begin + k * course.step
+        calm = manoeuvre.side == 0.0
 
         # where is it, and is that the end?
-        leg = _next_leg(course, state, leg, t, arrivals)
-        place = _place(course, leg, state)
-        if place.left <= 0.0 and not homing:
-            homing, best = True, math.inf
-        if homing:
-            place = _homeward(course, state)
-        calm = manoeuvre.side == 0.0
+        way, place = _made(course, state, way, t, arrivals)
         _write(log, k, state, place, 0 if calm else number)
-        if free < 0.0:
-            return k + 1, _COLLIDED
-        if homing and place.left <= course.reach:
-            arrivals[-1] = t
-            return k + 1, _ARRIVED
-        left = place.left + course.left[leg + 1]
-        if left < best - _PROGRESS:
-            best, progressed = left, t
-        stopped = manoeuvre.hopeless and state.surge <= 0.0
-        if stopped or t - progressed > course.patience:
-            return k + 1, _BLOCKED if stopped or manoeuvre.blocked >= progressed else _SWEPT
+        outcome = _outcome(course, way, place, manoeuvre, free, state.surge, t)
+        if outcome != _UNDER_WAY:
+            arrivals[-1] = t if outcome == _ARRIVED else math.inf
+            return k + 1, outcome
 
         # where should it go?
         aim = place.bearing
-        if not homing:
+        if not way.homing:
             aim = desired_heading(steering, place.bearing, place.error, memory)
-        if calm and not homing:
+        if calm and not way.homing:
             memory = adapted(steering, place.error, memory, course.step)
         desired += _wrapped(aim - desired)
         if t >= ping and not manoeuvre.hopeless:
@@ -246,11 +247,56 @@ def _sail(
         heading = desired if manoeuvre.side == 0.0 else manoeuvre.heading
         engine = astern if manoeuvre.hopeless else motion
         moved = advance(engine, grid, state, heading, t, course.step)
-        free -= math.hypot(moved.x - state.x, moved.y - state.y)
-        if free < 0.0:
-            free = leg_clearance(barriers, state.x, state.y, moved.x, moved.y)
+        free = _still_free(barriers, free, state, moved)
         state = moved
     return len(log), _LATE
+
+
+@kernel
+def _made(
+    course: _Course, state: State, way: _Way, t: float, arrivals: Floats
+) -> tuple[_Way, _Place]:
+    """What of the way is made by now, and where on it the vehicle is."""
+    leg = _next_leg(course, state, way.leg, t, arrivals)
+    place, homing, best = _place(course, leg, state), way.homing, way.best
+    if place.left <= 0.0 and not homing:
+        homing, best = True, math.inf
+    if homing:
+        place = _homeward(course, state)
+    left = place.left + course.left[leg + 1]
+    if left < best - _PROGRESS:
+        return _Way(leg, homing, left, t), place
+    return _Way(leg, homing, best, way.progressed), place
+
+
+@kernel
+def _outcome(
+    course: _Course,
+    way: _Way,
+    place: _Place,
+    manoeuvre: Manoeuvre,
+    free: float,
+    surge: float,
+    t: float,
+) -> int:
+    """How the voyage has ended, if it has."""
+    if free < 0.0:
+        return _COLLIDED
+    if way.homing and place.left <= course.reach:
+        return _ARRIVED
+    stopped = manoeuvre.hopeless and surge <= 0.0
+    if stopped or t - way.progressed > course.patience:
+        return _BLOCKED if stopped or manoeuvre.blocked >= way.progressed else _SWEPT
+    return _UNDER_WAY
+
+
+@kernel
+def _still_free(barriers: Barriers, free: float, state: State, moved: State) -> float:
+    """Metres within which no barrier is after a step, by those before it and the way made."""
+    free -= math.hypot(moved.x - state.x, moved.y - state.y)
+    if free < 0.0:
+        return leg_clearance(barriers, state.x, state.y, moved.x, moved.y)
+    return free
 
 
 @kernel

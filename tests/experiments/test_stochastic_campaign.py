@@ -77,6 +77,18 @@ def test_figures_of_known_outcomes() -> None:
     assert figures["late_share"]["five-tier"] == pytest.approx(1.0 / 18.0)
 
 
+def test_the_report_tells_what_tracks_prove() -> None:
+    sailed = [
+        replace(outcome, clairvoyant=(), min_clearance=9.5, lost=outcome.cell.scenario == 3)
+        for outcome in made_up()
+    ]
+    assert "9.5 m" in report(sailed)
+    assert "0 collisions, 6 AUVs that did not arrive" in report(sailed)
+    assert "No gap to a clairvoyant plan" in report(sailed)
+    assert summary(sailed)["min_clearance"] == 9.5
+    assert "sailed by a vehicle" not in report(made_up())
+
+
 def test_the_report_is_written_whole(tmp_path: Path) -> None:
     write_report(made_up(), tmp_path)
     assert {file.name for file in tmp_path.iterdir()} == set(FILES)
