@@ -243,9 +243,11 @@ def _prepared(
     if choices["actuation"] == "vehicle":
         theatre = theatre.sailed_by(VehicleModel.of(voyage, file.parent), seed)
     if routes is None:
+        # Who plans anew at once, and slowly, need not rehearse what it sets out with itself.
+        planner = choices["planner"]
         routes = departure_plan(
             theatre.by_law,
-            choices["planner"],
+            "of-one-mind" if planner == "re-optimising" else planner,
             reserve=choices["reserve"],
             seed=seed,
             limits=clock.rest(),

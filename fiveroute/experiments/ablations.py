@@ -38,6 +38,7 @@ __all__ = [
 FLEET = 4
 """AUVs of all variants."""
 
+_ALONE = "no-coordination"
 _RESAMPLES = 10_000
 _SAMPLES = 50  # of the leg times, for S-GGARP
 
@@ -58,7 +59,9 @@ class Variant:
     reserve
         Standard deviations of the remaining time kept in hand.
     planning
-        How its plan is made; None takes rehearsed plans for its own reserve.
+        How its plan is made; None rehearses plans with its own reserve.
+    rehearsed_by
+        Who steers in rehearsals.
     """
 
     group: str
@@ -66,6 +69,7 @@ class Variant:
     planner: str = "five-tier"
     reserve: float = 1.645
     planning: Planning | None = None
+    rehearsed_by: str = "five-tier"
 
 
 def _slack(slack: float) -> Planning:
@@ -93,7 +97,8 @@ WHOLE = Variant("", "five-tier as it is")
 """What all others are compared with."""
 
 VARIANTS = (
-    Variant("tier 5", "no coordination", "no-coordination"),
+    Variant("tier 5", "no coordination, the same plan", _ALONE),
+    Variant("tier 5", "no coordination, its own plan", _ALONE, rehearsed_by=_ALONE),
     Variant("tier 5", "discarding and auction only, as printed", "to-the-letter"),
     Variant("tier 5", "own pick-up, no auction", "own-pick-up"),
     Variant("tier 5", "auction, perfect communication", "of-one-mind"),
@@ -158,7 +163,7 @@ def sail_variants(
     for scenario in range(1, scenarios + 1):
         instance = paper_scenario(scenario)
         theatre = Theatre.of(instance, FLEET)
-        plans: dict[float, Plan] = {}
+        plans: dict[tuple[float, str], Plan] = {}
         for variant in (WHOLE, *variants):
             plan = _plan_of(variant, instance, theatre, plans, seed)
             result = simulate_fleet(
@@ -175,14 +180,20 @@ def sail_variants(
 
 
 def _plan_of(
-    variant: Variant, instance: Instance, theatre: Theatre, plans: dict[float, Plan], seed: int
+    variant: Variant,
+    instance: Instance,
+    theatre: Theatre,
+    plans: dict[tuple[float, str], Plan],
+    seed: int,
 ) -> Plan:
-    """The plan of a variant; rehearsed plans are made once for a reserve, and kept."""
+    """The plan of a variant; a plan that was rehearsed before is taken again."""
     if variant.planning is not None:
         return variant.planning(instance, seed)
-    if variant.reserve not in plans:
-        plans[variant.reserve] = departure_plan(theatre, reserve=variant.reserve, seed=seed)
-    return plans[variant.reserve]
+    key = variant.reserve, variant.rehearsed_by
+    if key not in plans:
+        reserve, planner = key
+        plans[key] = departure_plan(theatre, planner, reserve=reserve, seed=seed)
+    return plans[key]
 
 
 def gathered(trials: Sequence[Trial]) -> tuple[Ablation, ...]:

@@ -20,7 +20,6 @@ from fiveroute.sea.auction import assign_by_auction
 from fiveroute.sea.course import Course, Outlook, outlook
 from fiveroute.sea.departure import departure_plan
 from fiveroute.sea.discarding import discard
-from fiveroute.sea.luck import Luck
 from fiveroute.sea.picking import offers
 from fiveroute.sea.planners.to_the_letter import ToTheLetter
 from fiveroute.sea.simulation import RunResult, simulate_fleet
@@ -153,8 +152,8 @@ def busiest_auction(theatre: Theatre, plan: Plan, runs: int, seed: int = 0) -> t
     best: tuple[Round, ...] = ()
     view = outlook(theatre.problem, theatre.law, reserve=0.0)
     for run in range(runs):
-        luck = Luck(theatre.law, seed, run)
-        voyage = Voyage(theatre.problem, luck, (float("inf"),) * theatre.problem.fleet_size)
+        never = (float("inf"),) * theatre.problem.fleet_size
+        voyage = Voyage(theatre.problem, theatre.luck(seed, run), never)
         crew = _Listener(voyage, view, plan)
         voyage.sail(crew)
         best = max([best, *crew.auctions], key=_rivalry)

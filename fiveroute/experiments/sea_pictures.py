@@ -37,25 +37,21 @@ def coordination_case(case: Case) -> Figure:
     Figs. 9 and 10 of the paper, and the distribution that they are taken from.
     """
     figure = Figure(figsize=(10.0, 10.0), layout="constrained")
-    (planned, alone), (together, gains) = figure.subplots(2, 2)
-    run = case.typical
-    without, with_it = (Sailed.of(runs[run], case.plan) for runs in (case.alone, case.together))
-    panels = (
-        (planned, "plan", case.planned, case.plan.routes, frozenset[int](), frozenset[int]()),
-        (alone, "sailed without coordination", *_told(without)),
-        (together, "sailed with coordination", *_told(with_it)),
-    )
-    for axis, name, theta, routes, lost, gained in panels:
-        title = f"{name}: $\\theta$ = {theta:.3f}"
-        draw_map(axis, case.instance, Panel(title, routes, lost=lost, gained=gained))
+    *maps, gains = figure.subplots(2, 2).ravel()
+    plan, run = case.plan, case.typical
+    shown = {
+        "plan": Sailed(case.planned, plan.routes, frozenset(), frozenset()),
+        "sailed without coordination": Sailed.of(case.alone[run], plan),
+        "sailed with coordination": Sailed.of(case.together[run], plan),
+    }
+    for axis, (name, sailed) in zip(maps, shown.items(), strict=True):
+        title = f"{name}: $\\theta$ = {sailed.completion:.3f}"
+        panel = Panel(title, sailed.routes, lost=sailed.lost, gained=sailed.gained)
+        draw_map(axis, case.instance, panel)
     _draw_gains(gains, case.gains, run)
-    figure.suptitle(f"Scenario {case.scenario}, M = {len(case.plan.routes)}")
-    map_legend(figure, len(case.plan.routes), marks=True)
+    figure.suptitle(f"Scenario {case.scenario}, M = {len(plan.routes)}")
+    map_legend(figure, len(plan.routes), marks=True)
     return figure
-
-
-def _told(run: Sailed) -> tuple[float, tuple[tuple[int, ...], ...], frozenset[int], frozenset[int]]:
-    return run.completion, run.routes, run.lost, run.gained
 
 
 def _draw_gains(axis: Axes, gains: NDArray[np.float64], run: int) -> None:
@@ -123,7 +119,7 @@ def _draw_lane(
         )
         begun = event.t
         if event.kind == "collect" and event.node is not None:
-            area = 20.0 + 70.0 * problem.profit[event.node] / problem.profit.max()
+            area = 20.0 + 70.0 * problem.profit[event.node] / max(problem.profit.max(), 1e-12)
             axis.scatter(event.t / _HOUR, row, s=area, color=colour, zorder=3)
             height = 0.14 if event.t - labelled > _LABEL else 0.25 if height < 0.2 else 0.14
             labelled, place = event.t, (event.t / _HOUR, row + height)
@@ -247,7 +243,7 @@ def scenario_chart(
         )
     best = np.argmax(list(means.values()), axis=0)
     for place, k in zip(places, best.tolist(), strict=True):
-        above.axvspan(place - 0.45, place + 0.45, color=_PLANNERS[k][1], alpha=0.09, lw=0)
+        above.axvspan(place - 0.45, place + 0.45, color=_PLANNERS[k][1], alpha=0.14, lw=0)
     above.set_title("Completion by scenario, shaded in the colour of the best", loc="left")
     above.set(ylabel="mean completion rate")
     above.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(means), frameon=False)
