@@ -207,6 +207,8 @@ class _Tree:
                 return None
             if not has_converged or not here.cut(self.on_bound):
                 break
+            if here.pool is None and parent is None:
+                self.plan_over_known_routes(here)
         if self.settle(here, _MOST_ROUTES_TO_SAIL):
             return None
         return here
@@ -255,6 +257,6 @@ class _Tree:
 
     def plan_over_known_routes(self, here: Subproblem) -> None:
         """Look for a plan over the elementary routes that the master problem knows."""
-        routes = [route for route in here.master.routes if len(set(route)) == len(route)]
+        routes = here.routes_of_better_plans()
         clock = self.clock.rest().within(_PLAN_TIME).start()
         sail_best(Pool.of(self.roads, routes), self.roads, self.incumbent, clock)

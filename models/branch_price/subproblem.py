@@ -175,6 +175,17 @@ class Subproblem:
             self.master.remove_cuts(range(last - len(cuts), last))
         return has_converged and self.bound < before - 1e-3 * abs(before) * 0.01
 
+    def routes_of_better_plans(self) -> list[Route]:
+        """Known routes through distinct nodes that are worth enough for a better plan."""
+        assert self.relaxation is not None
+        gap = self.relaxation.value - self.target()
+        return [
+            route
+            for k, route in enumerate(self.master.routes)
+            if len(set(route)) == len(route)
+            and self.master.reduced_profit(k, self.relaxation.duals) > -gap
+        ]
+
     def whole_routes(self) -> list[Route]:
         """Routes that the last solution sails, each as often as it does; shares are rounded."""
         routes, shares = self.solution()

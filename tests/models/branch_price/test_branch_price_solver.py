@@ -58,6 +58,29 @@ def test_branching_alone_agrees_with_brute_force(
 
 
 @pytest.mark.parametrize("seed", range(100))
+@pytest.mark.parametrize("with_pool", [False, True])
+def test_a_price_of_time_agrees_with_brute_force(
+    seed: int, with_pool: bool, odd: Odd, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Time has its price from the start; no plan over known routes, all routes by inspection."""
+    changes = [("_NEARLY", -1.0), ("_FEWER", 100.0), ("_PLAN_TIME", 0.0)]
+    if with_pool:
+        changes += [("_ROUTES_TO_SAIL", -1), ("_MOST_ROUTES_TO_SAIL", -1)]
+    for name, value in changes:
+        monkeypatch.setattr(solver, name, value)
+    require_truth(odd(seed), branch_price.solve(odd(seed).problem))
+
+
+def test_the_cheapest_plan_is_not_the_best_where_none_is_known(
+    odd: Odd, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The direct leg is too long for some AUV, so that the search starts without a plan."""
+    for name, value in (("_NEARLY", -1.0), ("_FEWER", 100.0), ("_PLAN_TIME", 0.0), ("_TOLL", 0.5)):
+        monkeypatch.setattr(solver, name, value)
+    require_truth(odd(1703), branch_price.solve(odd(1703).problem))
+
+
+@pytest.mark.parametrize("seed", range(100))
 def test_a_bound_holds_whenever_it_is_stopped(seed: int, odd: Odd) -> None:
     truth = odd(seed)
     limit = float(np.random.default_rng(seed).uniform(0.0, 0.02))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import permutations
 
 import numpy as np
@@ -11,7 +12,7 @@ from fiveroute.limits import Limits
 from fiveroute.models.branch_price.master import coefficient
 from fiveroute.models.branch_price.neighbourhoods import is_forgetful, nearest
 from fiveroute.models.branch_price.pricing import Cut, Duals, Pricer
-from fiveroute.models.branch_price.roads import Roads
+from fiveroute.models.branch_price.roads import Roads, is_mirrored
 from fiveroute.models.network import Network
 from fiveroute.problem import TeamOrienteering
 
@@ -50,7 +51,7 @@ def worth(roads: Roads, duals: Duals, route: tuple[int, ...]) -> float:
     paid = sum(
         price * coefficient(route, cut) for cut, price in zip(duals.cuts, duals.price, strict=True)
     )
-    return float((roads.profit - duals.node)[list(route)].sum() - paid)
+    return float(roads.worth(route) - duals.node[list(route)].sum() - paid)
 
 
 def best_of_all(roads: Roads, duals: Duals) -> np.ndarray:
@@ -66,9 +67,10 @@ def best_of_all(roads: Roads, duals: Duals) -> np.ndarray:
 
 @pytest.mark.parametrize("seed", range(12))
 @pytest.mark.parametrize("cuts", [0, 4])
-def test_finds_the_most_valuable_route(seed: int, cuts: int) -> None:
+@pytest.mark.parametrize("toll", [0.0, 0.05])
+def test_finds_the_most_valuable_route(seed: int, cuts: int, toll: float) -> None:
     """With neighbourhoods of all nodes, ng-routes are elementary."""
-    roads = Roads.of(Network.of(problem(seed)))
+    roads = replace(Roads.of(Network.of(problem(seed))), toll=toll)
     duals = multipliers(roads, seed, cuts)
     everything = np.ones(roads.leg.shape, dtype=np.bool_)
     priced = Pricer(roads, everything).price(duals, Limits().start())
@@ -77,6 +79,25 @@ def test_finds_the_most_valuable_route(seed: int, cuts: int) -> None:
     np.testing.assert_allclose(priced.best, best_of_all(roads, duals), atol=1e-9)
     found = max(worth(roads, duals, route) for route in priced.routes)
     assert found == pytest.approx(priced.best[-1])
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("toll", [0.0, 0.05])
+def test_one_half_does_for_two_where_both_directions_are_alike(seed: int, toll: float) -> None:
+    """No service, symmetric legs, and the destination where the start is."""
+    rng = np.random.default_rng(seed)
+    xy = rng.uniform(0.0, 10.0, (8, 2))
+    xy[-1] = xy[0]
+    travel = np.hypot(*(xy[:, None] - xy).transpose(2, 0, 1))
+    profit = np.pad(rng.uniform(0.1, 1.0, 6), 1)
+    alike = TeamOrienteering(travel, np.zeros(8), profit, rng.uniform(12.0, 28.0, 2))
+    roads = replace(Roads.of(Network.of(alike)), toll=toll)
+    assert is_mirrored(roads.leg)
+    duals = multipliers(roads, seed, 4)
+    everything = np.ones(roads.leg.shape, dtype=np.bool_)
+    priced = Pricer(roads, everything).price(duals, Limits().start())
+    assert priced is not None
+    np.testing.assert_allclose(priced.best, best_of_all(roads, duals), atol=1e-9)
 
 
 @pytest.mark.parametrize("seed", range(12))
