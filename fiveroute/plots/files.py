@@ -79,7 +79,7 @@ def write_film(
             for artist in set(ax.get_children()) - still[ax]:
                 artist.remove()
             draw_fleet(ax, scene, fleet, end * frame / max(frames - 1, 1))
-            ax.set_title(f"{scene.title}: {ax.get_title()}", alpha=1.0)
+            ax.set_title(f"{scene.title}: {ax.get_title()}", alpha=1.0, y=1.0)
         return []
 
     film = FuncAnimation(figure, draw, frames=frames)

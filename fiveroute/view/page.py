@@ -31,6 +31,7 @@ SCRIPTS = (
     "map.js",
     "tables.js",
     "strip.js",
+    "bars.js",
     "pane.js",
     "player.js",
     "app.js",

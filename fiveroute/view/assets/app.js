@@ -160,7 +160,7 @@ class App {
       `${scene.routes.length} AUVs · ${scene.ids.length} nodes · ${what} · fiveroute ${scene.version}`;
     this.tables = [];
     if (!byId("panel-fleet").hidden) {
-      this.tables.push(fleetTable(byId("panel-fleet"), pane, theme, (auv) => pane.mark(auv, 0)));
+      this.tables.push(fleetTable(byId("fleet"), pane, theme, (auv) => pane.mark(auv, 0)));
       this.tables[0].kind = "auv";
     }
     if (!byId("panel-nodes").hidden) {
@@ -243,6 +243,7 @@ class App {
       pane.draw(t, this.theme, this.shows, look);
       pane.showFigures();
     }
+    if (!byId("panel-fleet").hidden) drawBars(byId("bars"), this.active, end, t, this.theme);
     drawStrip(byId("strip"), this.panes, end, t, this.theme);
     byId("time").value = String(t);
     byId("time").setAttribute("aria-valuetext", clock(t));

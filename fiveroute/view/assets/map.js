@@ -109,7 +109,7 @@ function drawSailed(context, view, timeline, theme, t) {
 }
 
 function nodeRadius(scene, node, view) {
-  const shrink = Math.min(1, Math.max(0.35, 9 / Math.sqrt(scene.ids.length + 1)));
+  const shrink = Math.min(1, Math.max(0.25, 9 / Math.sqrt(scene.ids.length + 1)));
   const zoom = Math.min(1.6, Math.max(1, (view.scale / view.least) ** 0.3));
   return (3.2 + 6.8 * Math.sqrt(scene.data[node - 1] / scene.most)) * shrink * zoom;
 }

@@ -130,8 +130,7 @@ class Pane {
     if (shows.names) drawNames(context, view, this.scene, theme);
     drawEnds(context, view, this.scene, theme);
     if (this.marked.node) this.drawMarkedNode(context, view, theme);
-    if (shows.events)
-      drawEvents(context, view, this.scene, this.timeline, theme, t, look);
+    if (shows.events) drawEvents(context, view, this.scene, this.timeline, theme, t, look);
     drawAuvs(context, view, this.timeline, theme, t, this.marked.auv);
     drawFurniture(context, view, this.scene, theme);
   }

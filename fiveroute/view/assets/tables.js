@@ -28,7 +28,8 @@ function swatch(theme, auv) {
 }
 
 class Table {
-  /** columns: { name, value(row), show(row), isText, tip }; rows are numbers. */
+  /** columns: { name, value(row), show(row), isText, tip }; rows are numbers. What is shown is a
+   * text, or { text, parts() } with elements that are made when the text changes. */
   constructor(host, caption, columns, rows, onPick) {
     this.columns = columns;
     this.rows = rows.slice();
@@ -63,6 +64,7 @@ class Table {
     const cells = this.columns.map((column) =>
       element("td", { class: column.isText ? "" : "number" }),
     );
+    cells.texts = [];
     this.cells.set(row, cells);
     const pick = () => onPick(row);
     const keyed = (event) => {
@@ -81,11 +83,10 @@ class Table {
       this.columns.forEach((column, k) => {
         const shown = column.show(row);
         const text = typeof shown === "string" ? shown : shown.text;
-        const cell = cells[k];
-        if (cell.dataset.text === text) return;
-        cell.dataset.text = text;
-        if (typeof shown === "string") cell.textContent = text;
-        else cell.replaceChildren(...shown.parts);
+        if (cells.texts[k] === text) return;
+        cells.texts[k] = text;
+        if (typeof shown === "string") cells[k].textContent = text;
+        else cells[k].replaceChildren(...shown.parts());
       });
     }
   }
@@ -134,7 +135,7 @@ function fleetTable(host, pane, theme, onPick) {
         value: (auv) => auv,
         show: (auv) => ({
           text: `${auv} ${theme.water}`,
-          parts: [swatch(theme, auv), ` ${auv + 1}`],
+          parts: () => [swatch(theme, auv), ` ${auv + 1}`],
         }),
       },
       {
@@ -184,8 +185,7 @@ const DOING = {
 };
 
 function homeText(fate, budget) {
-  if (fate.kind === "fail") return `failed ${clock(fate.t)}`;
-  if (fate.kind === "unknown") return "not home";
+  if (fate.kind !== "arrive") return "never";
   return fate.t > budget * (1 + 1e-9) + 0.5 ? `${clock(fate.t)} late` : clock(fate.t);
 }
 
@@ -223,7 +223,7 @@ function nodeTable(host, pane, theme, onPick) {
           const { auv } = now(row);
           return auv < 0
             ? ""
-            : { text: `${auv} ${theme.water}`, parts: [swatch(theme, auv), ` ${auv + 1}`] };
+            : { text: `${auv} ${theme.water}`, parts: () => [swatch(theme, auv), ` ${auv + 1}`] };
         },
       },
       {
