@@ -32,11 +32,16 @@ _POINTS, _POINTS_IN_TIME = 176, 88
 """Points of the current along the longer side; where it varies, at every time."""
 
 _TIMES = 13
+"""Times at which a current that varies is shown."""
 
 _FARTHEST = 1e12
+"""Coordinates that are drawn are smaller than this."""
+
+_DIAGONAL = np.array([(-1.0, -1.0), (1.0, 1.0)])
 
 _SURROUND = 0.75
 """Half a chart's side, as a share of the region's longer side: maps are wider or higher than it."""
+
 
 _CELLS = 400
 """Cells of the mask along the longer side."""
@@ -116,9 +121,6 @@ def region_of(instance: Instance, tracks: list[Floats]) -> Region:
     return Region.around(points, _MARGIN * float(np.hypot(*np.ptp(points, axis=0))) or 1.0)
 
 
-_DIAGONAL = np.array([(-1.0, -1.0), (1.0, 1.0)])
-
-
 def seen_current(current: Superposition) -> Superposition:
     """The same current for pictures: beyond a file's data it goes on as at their edge."""
     return Superposition(
@@ -170,7 +172,7 @@ def _times(current: Current, duration: float) -> Floats:
     for part in getattr(current, "parts", ()):
         if isinstance(part, ModelCurrent) and not part.is_steady:
             last = min(last, float(part.times[-1]))
-    return np.linspace(0.0, last, _TIMES)
+    return np.linspace(0.0, last, _TIMES) if last > 0.0 else np.zeros(1)
 
 
 def _mask(current: Superposition, region: Region) -> Mask | None:

@@ -38,7 +38,12 @@ function drawBar(context, legs, x, y, t, colour) {
       if (to <= from) continue;
       const now = Math.min(Math.max(t, from), to);
       context.globalAlpha = 1;
-      context.fillRect(x(from), y - thick / 2, x(now) - x(from), thick);
+      context.fillRect(
+        x(from),
+        y - thick / 2,
+        now > from ? Math.max(x(now) - x(from), 1.5) : 0,
+        thick,
+      );
       context.globalAlpha = 0.35;
       context.fillRect(x(now), y - thick / 2, x(to) - x(now), thick);
     }
