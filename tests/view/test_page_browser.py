@@ -79,6 +79,11 @@ class Visit:
         script = "(k) => document.querySelectorAll('.pane canvas')[k].toDataURL()"
         return str(self.page.evaluate(script, place))
 
+    def middle(self) -> tuple[float, float]:
+        """The middle of the map on the screen."""
+        box = self.page.locator(".pane canvas").bounding_box()
+        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
     def close(self) -> None:
         self.page.context.close()
         assert self.complaints == []
@@ -178,6 +183,16 @@ def test_tables_tell_what_happens(browser: Any, scene: Scene, tmp_path: Path) ->
     assert "</script><img src=x onerror=alert(1)>&" in shown[1]
     page.locator("#panel-nodes tbody tr").first.click()
     assert page.locator("#panel-nodes tr.marked").count() == 1
+
+    # A node out of sight is brought into it.
+    page.locator(".pane canvas").focus()
+    for _ in range(20):
+        page.keyboard.press("Shift+ArrowLeft")
+    away = visit.pixels()
+    page.locator("#panel-nodes tbody tr").nth(2).click()
+    assert visit.pixels() != away
+    page.mouse.move(*visit.middle())
+    assert "data 2" in visit.text("#tip")
 
     page.click("#tab-events")
     rows = page.locator("#events .event")

@@ -160,17 +160,26 @@ class App {
       `${scene.routes.length} AUVs · ${scene.ids.length} nodes · ${what} · fiveroute ${scene.version}`;
     this.tables = [];
     if (!byId("panel-fleet").hidden) {
-      this.tables.push(fleetTable(byId("fleet"), pane, theme, (auv) => pane.mark(auv, 0)));
+      this.tables.push(fleetTable(byId("fleet"), pane, theme, (auv) => this.pick(pane, auv, 0)));
       this.tables[0].kind = "auv";
     }
     if (!byId("panel-nodes").hidden) {
-      this.tables.push(nodeTable(byId("panel-nodes"), pane, theme, (node) => pane.mark(-1, node)));
+      this.tables.push(
+        nodeTable(byId("panel-nodes"), pane, theme, (node) => this.pick(pane, -1, node)),
+      );
       this.tables[0].kind = "node";
     }
     if (!byId("panel-events").hidden) this.events.show(scene, timeline, theme, this.kinds);
     if (!byId("panel-key").hidden) showKey(byId("panel-key"), this);
     this.tables.forEach((table) => table.mark(pane.marked[table.kind]));
     this.updateSide(true);
+  }
+
+  /** Mark what was chosen in a table, and bring it into sight. */
+  pick(pane, auv, node) {
+    pane.mark(auv, node);
+    const place = pane.placeOfMarked();
+    if (place && !pane.isInSight(place)) [this.camera.x, this.camera.y] = [place.x, place.y];
   }
 
   marked(pane) {

@@ -282,6 +282,18 @@ class Pane {
     this.app.marked(this);
   }
 
+  /** Where the marked AUV or node is, in metres; null if nothing is marked. */
+  placeOfMarked() {
+    const { auv, node } = this.marked;
+    if (auv >= 0) return positionAt(this.timeline.tracks[auv], this.t);
+    return node ? { x: this.scene.points[2 * node], y: this.scene.points[2 * node + 1] } : null;
+  }
+
+  isInSight({ x, y }) {
+    const [px, py] = [this.view.sx(x), this.view.sy(y)];
+    return px > 0 && py > 0 && px < this.view.width && py < this.view.height;
+  }
+
   hover(event) {
     if (!this.view) return;
     const [px, py] = this.place(event);
