@@ -1,3 +1,4 @@
+import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -25,3 +26,17 @@ def test_wrong_calls_are_told(call: Call, tiny: Path, tmp_path: Path) -> None:
     instance = call("view", tiny, "--output", tmp_path / "page.html")
     assert instance.code == 2
     assert "is not the format of this file" in instance.err
+
+
+def test_simulated_runs_can_be_played(call: Call, tiny: Path, tmp_path: Path) -> None:
+    plan, log, page = (tmp_path / name for name in ("plan.json", "log.jsonl", "page.html"))
+    call("plan", tiny, "--output", plan)
+    assert call("simulate", tiny, plan, "--runs", 2, "--events", log, "--json").code == 0
+    answer = call("view", plan, "--events", log, "--events", log, "--output", page)
+    assert answer.code == 0
+    _, _, data = page.read_text(encoding="utf-8").partition('id="data">')
+    scenes = json.loads(data[: data.index("</script>")])["scenes"]
+    assert [[run["run"] for run in scene["runs"]] for scene in scenes] == [[0, 1], [0, 1]]
+    assert (
+        call("view", plan, "--events", log, "--run", 9, "--output", tmp_path / "run.png").code == 2
+    )
