@@ -19,7 +19,7 @@ from fiveroute.generate import paper_scenario
 from fiveroute.instance import Instance
 from fiveroute.mission import plan_mission
 from fiveroute.plan import Plan
-from fiveroute.sea.departure import departure_plan, slack_plan
+from fiveroute.sea.departure import departure_plan
 from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
 
@@ -33,6 +33,7 @@ __all__ = [
     "ablation_table",
     "gathered",
     "sail_variants",
+    "slack_plan",
 ]
 
 FLEET = 4
@@ -74,6 +75,25 @@ class Variant:
 
 def _slack(slack: float) -> Planning:
     return lambda instance, seed: slack_plan(instance, slack, fleet_size=FLEET, seed=seed)
+
+
+def slack_plan(instance: Instance, slack: float, *, fleet_size: int, seed: int = 0) -> Plan:
+    """The plan of tiers 1 and 2 for straight legs that all take longer by one factor.
+
+    Parameters
+    ----------
+    instance
+        The mission.
+    slack
+        The factor, at least 1.
+    fleet_size
+        Number of AUVs.
+    seed
+        Seed of the random numbers.
+    """
+    legs = slack * instance.travel
+    mission = plan_mission(instance, travel=legs, fleet_size=fleet_size, seed=seed)
+    return mission.result.plan or Plan.empty(fleet_size)
 
 
 def _paper(samples: int, quantile: float | None = None) -> Planning:

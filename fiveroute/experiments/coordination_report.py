@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from fiveroute.experiments.ablations import FLEET, Ablation, ablation_table
+from fiveroute.experiments.ablations import FLEET, Ablation, ablation_table, slack_plan
 from fiveroute.experiments.coordination_cases import Case, Sailed, busiest_auction
 from fiveroute.experiments.published import COORDINATED, COORDINATION_GAIN
 from fiveroute.formats.files import require_writable, write_text_atomically
-from fiveroute.sea.departure import slack_plan
 
 __all__ = ["FILES", "report", "summary", "write_report"]
 

@@ -34,7 +34,13 @@ def test_what_is_decided_is_not_in_doubt() -> None:
 
 
 def test_every_plan_is_in_one_half() -> None:
-    plans = [[(1, 2), (3,)], [(2, 1)], [(3, 4), (1,)], [()], [(1, 4, 2), (3,)]]
+    plans: list[list[tuple[int, ...]]] = [
+        [(1, 2), (3,)],
+        [(2, 1)],
+        [(3, 4), (1,)],
+        [()],
+        [(1, 4, 2), (3,)],
+    ]
     for halves in (by_node(WHOLE, 1), by_leg(WHOLE, (1, 2)), by_leg(WHOLE, (0, 3))):
         for plan in plans:
             assert sum(allowed(half, plan) for half in halves) == 1

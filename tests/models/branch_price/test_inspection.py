@@ -42,7 +42,7 @@ def multipliers(seed: int) -> Duals:
 
 def worth(roads: Roads, duals: Duals, route: tuple[int, ...]) -> float:
     paid = sum(p * coefficient(route, cut) for cut, p in zip(duals.cuts, duals.price, strict=True))
-    return roads.worth(route) - float(duals.node[list(route)].sum()) - paid
+    return float(roads.worth(route) - duals.node[list(route)].sum() - paid)
 
 
 @pytest.mark.parametrize("seed", range(4))
