@@ -141,6 +141,8 @@ def command(
     files.write(*outcome.value, choices["seed"])
     if registry:
         registry.end()
+    if choices["gap"] and result.online_gap is None:
+        click.echo("fiveroute: no gap is given: a vehicle would have to sail all legs", err=True)
     answer = answers.simulation_answer(voyage, result, choices["seed"])
     if as_json:
         answers.print_json(answer)
@@ -241,7 +243,8 @@ def _prepared(
         size = choices["fleet_size"] or fleet_size_of(voyage.instance, voyage.travel, rng=rng)
     theatre = Theatre.of(voyage.instance, size, travel=voyage.travel)
     if choices["actuation"] == "vehicle":
-        theatre = theatre.sailed_by(VehicleModel.of(voyage, file.parent), seed)
+        model = VehicleModel.of(voyage, file.parent)
+        theatre = theatre.sailed_by(model, seed, limits=clock.rest())
     if routes is None:
         # Who plans anew at once, and slowly, need not rehearse what it sets out with itself.
         planner = choices["planner"]

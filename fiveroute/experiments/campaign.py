@@ -26,6 +26,9 @@ Chunks = list[tuple[int, int]]
 _CHUNKS_A_WORKER = 4
 """So many that all workers end at about the same time, and progress is seen."""
 
+_MOST = 10
+"""Runs of a chunk at most, so that an end that is asked for is soon."""
+
 _ON_CLUSTER = 8
 """Workers of a cluster that chunks are made for."""
 
@@ -100,7 +103,7 @@ def sail_campaign(
 
 def _chunks(runs: Sequence[int], workers: int) -> Chunks:
     """First run and number of runs of every chunk, whose runs follow each other."""
-    size = max(len(runs) // (workers * _CHUNKS_A_WORKER), 1)
+    size = min(max(len(runs) // (workers * _CHUNKS_A_WORKER), 1), _MOST)
     chunks: Chunks = []
     for run in runs:
         first, length = chunks[-1] if chunks else (run, 0)

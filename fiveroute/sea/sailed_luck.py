@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path as File
 
 import numpy as np
@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
 from fiveroute.kernels import kernel
+from fiveroute.limits import Limits
 from fiveroute.ocean.barriers import Barriers, distance_to_leg
 from fiveroute.paths.leg_table import LegTable
 from fiveroute.paths.voyage import Voyage
@@ -38,6 +39,7 @@ from fiveroute.vehicle.unknown_obstacles import near_track
 __all__ = ["SailedLuck", "VehicleModel"]
 
 Floats = NDArray[np.float64]
+Stops = tuple[int, int]
 
 _CORRIDOR = 150.0
 """Metres to each side of a track within which discs are looked at, besides the sonar's reach."""
@@ -142,7 +144,15 @@ class VehicleModel:
                 break
         return sailed
 
-    def fit(self, planned: Floats, *, seed: int = 0, oceans: int = 120, walks: int = 2) -> Fit:
+    def fit(
+        self,
+        planned: Floats,
+        *,
+        seed: int = 0,
+        oceans: int = 120,
+        walks: int = 2,
+        limits: Limits | None = None,
+    ) -> Fit:
         """What (12) should assume of legs such as routes are made of.
 
         (12) takes legs for independent, but those of a route follow each other through the same
@@ -159,29 +169,32 @@ class VehicleModel:
             Seed of the oceans and of the choice of legs; not that of a simulation.
         oceans, walks
             Number of oceans, and of walks sailed in each.
+        limits
+            When to stop; the fit is made of the walks that were sailed, one ocean's at least.
         """
-        rng = np.random.default_rng((seed, 6))
+        clock, rng = (limits or Limits()).start(), np.random.default_rng((seed, 6))
         if self.legs is not None:
             planned = np.where(np.isfinite(self.legs.times), planned, np.inf)
-        truths = [self.ocean(seed, run) for run in range(oceans)]
-        ways = [(truth, _walk(planned, rng)) for truth in truths for _ in range(walks)]
-        sailed = self._both_ways([(truth, leg) for truth, way in ways for leg in way], planned)
-        fit = fit_uncertainty(sailed)
-        walk = np.repeat(np.arange(len(ways)), [len(way) for _, way in ways])
-        drift = _drift_of_walks(sailed, walk, fit.delay.value)
-        return replace(fit, drift=drift)
+        sailed: list[SailedLegs] = []
+        for run in range(oceans):
+            if sailed and clock.expired:
+                break
+            ocean = self.ocean(seed, run)
+            ways = (_walk(planned, rng) for _ in range(walks))
+            sailed += [self._both_ways(ocean, way, planned) for way in ways]
+        together = _joined(sailed)
+        fit = fit_uncertainty(together)
+        walk = np.repeat(np.arange(len(sailed)), [len(legs.planned) for legs in sailed])
+        return replace(fit, drift=_drift_of_walks(together, walk, fit.delay.value))
 
-    def _both_ways(
-        self, legs: Sequence[tuple[TrueOcean, tuple[int, int]]], planned: Floats
-    ) -> SailedLegs:
+    def _both_ways(self, ocean: TrueOcean, legs: Sequence[Stops], planned: Floats) -> SailedLegs:
         """Legs sailed without and with unknown obstacles."""
-        tracks = [self.track(*leg) for _, leg in legs]
-        near = [self._near(o.barriers, track) for (o, _), track in zip(legs, tracks, strict=True)]
+        tracks = [self.track(*leg) for leg in legs]
         return sail_legs(
             tracks,
-            [float(planned[leg]) for _, leg in legs],
-            [ocean.grid for ocean, _ in legs],
-            near,
+            [float(planned[leg]) for leg in legs],
+            [ocean.grid] * len(legs),
+            [self._near(ocean.barriers, track) for track in tracks],
             self.vehicle,
             guidance=self.guidance,
             avoidance=self.avoidance,
@@ -249,7 +262,7 @@ def _strays(positions: Floats, track: Floats, within: float) -> bool:
     return False
 
 
-def _walk(planned: Floats, rng: np.random.Generator) -> list[tuple[int, int]]:
+def _walk(planned: Floats, rng: np.random.Generator) -> list[Stops]:
     """Legs that follow each other from stop to near stop, as those of a route do."""
     last = len(planned) - 1
     tail, legs = int(rng.integers(last)), []
@@ -266,6 +279,16 @@ def _walk(planned: Floats, rng: np.random.Generator) -> list[tuple[int, int]]:
         legs.append((tail, head))
         tail = head
     return legs
+
+
+def _joined(parts: Sequence[SailedLegs]) -> SailedLegs:
+    """All legs one after the other."""
+    return SailedLegs(
+        *(
+            np.concatenate([getattr(part, column.name) for part in parts])
+            for column in fields(SailedLegs)
+        )
+    )
 
 
 def _drift_of_walks(legs: SailedLegs, walk: NDArray[np.int64], delay: float) -> Estimate:

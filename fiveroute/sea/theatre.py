@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.instance import Instance, Uncertainty
+from fiveroute.limits import Limits
 from fiveroute.problem import TeamOrienteering
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.sailed_luck import SailedLuck, VehicleModel
@@ -71,7 +72,9 @@ class Theatre:
         law = leg_law(problem.travel, lengths_km, uncertainty or uncertainty_of(instance))
         return cls(problem, law, instance.points, lengths_km)
 
-    def sailed_by(self, model: VehicleModel, seed: int = 0) -> Theatre:
+    def sailed_by(
+        self, model: VehicleModel, seed: int = 0, *, limits: Limits | None = None
+    ) -> Theatre:
         """The same mission, its legs sailed by a vehicle, and the law fitted to what it does.
 
         Equation (12) knows no delay on the average; here a leg is expected to take as much longer
@@ -83,9 +86,11 @@ class Theatre:
             How legs are sailed.
         seed
             Seed of the simulation; the fit has oceans of its own.
+        limits
+            When to end the fit.
         """
         planned = self.problem.travel
-        fit = model.fit(planned, seed=seed + _TRIAL_OCEANS)
+        fit = model.fit(planned, seed=seed + _TRIAL_OCEANS, limits=limits)
         delay = fit.delay.value
         uncertainty = replace(
             fit.uncertainty, drift=fit.drift.value / (1.0 + delay), floor=self.law.floor

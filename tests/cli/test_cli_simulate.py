@@ -75,6 +75,7 @@ def test_a_vehicle_sails_the_legs(call: Any, tiny: Path, tmp_path: Path) -> None
         assert answer.code == 0
         assert answer.doc["collisions"] == 0
         assert answer.doc["online_gap"] is None
+        assert "no gap is given" in answer.err
         tables.append(table.read_text())
     assert tables[0] == tables[1]
 

@@ -11,6 +11,7 @@ import pytest
 
 from fiveroute.generate import generate
 from fiveroute.instance import Uncertainty
+from fiveroute.limits import Limits
 from fiveroute.ocean.current_grid import CurrentGrid
 from fiveroute.paths.leg_table import LegTable
 from fiveroute.paths.voyage import Voyage
@@ -105,6 +106,11 @@ def test_the_law_expects_what_the_vehicle_does(sailed: Theatre, model: VehicleMo
     took = sum(luck.leg(*leg).time for luck in lucks for leg in legs)
     mean = sum(law.planned[leg] + law.encounters[leg] * law.manoeuvre_time for leg in legs)
     assert took / len(lucks) == pytest.approx(mean, rel=0.12)
+
+
+def test_a_fit_ends_when_asked(theatre: Theatre, model: VehicleModel) -> None:
+    fit = model.fit(theatre.problem.travel, walks=1, limits=Limits(time=0.0))
+    assert 2 <= fit.legs <= 4
 
 
 @pytest.mark.parametrize("planner", ["five-tier", "no-coordination", "rmmp"])
