@@ -1,5 +1,67 @@
-"""fiveroute: plans for fleets of autonomous underwater vehicles, with their optimality gap."""
+"""fiveroute: plans for fleets of autonomous underwater vehicles, with their optimality gap.
+
+    import fiveroute as fr
+
+    plan = fr.plan(fr.read("sea.json"))
+    print(plan)
+
+The names below are all that most programs need; they are loaded when they are first used, so that
+the command line starts quickly. The tiers, models and heuristics behind them are public as well.
+"""
 
 from __future__ import annotations
 
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fiveroute.errors import FiverouteError, InputError
+    from fiveroute.fleet_plan import FleetPlan, plan, read, solve
+    from fiveroute.fleet_runs import simulate
+    from fiveroute.instance import Instance
+    from fiveroute.limits import Limits, Progress
+    from fiveroute.result import Status
+
 __version__ = "0.1.0"
+
+__all__ = [
+    "FiverouteError",
+    "FleetPlan",
+    "InputError",
+    "Instance",
+    "Limits",
+    "Progress",
+    "Status",
+    "plan",
+    "read",
+    "simulate",
+    "solve",
+]
+
+_HOMES = {
+    "FiverouteError": "fiveroute.errors",
+    "FleetPlan": "fiveroute.fleet_plan",
+    "InputError": "fiveroute.errors",
+    "Instance": "fiveroute.instance",
+    "Limits": "fiveroute.limits",
+    "Progress": "fiveroute.limits",
+    "Status": "fiveroute.result",
+    "plan": "fiveroute.fleet_plan",
+    "read": "fiveroute.fleet_plan",
+    "simulate": "fiveroute.fleet_runs",
+    "solve": "fiveroute.fleet_plan",
+}
+
+
+if not TYPE_CHECKING:  # a type checker knows the names above, and no others
+
+    def __getattr__(name: str) -> object:
+        if name not in _HOMES:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        value = getattr(import_module(_HOMES[name]), name)
+        globals()[name] = value
+        return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_HOMES})

@@ -19,7 +19,7 @@ from fiveroute.check import Violation
 from fiveroute.crossings import metres_within
 from fiveroute.instance import Circle, Instance, Polygon
 from fiveroute.ocean.currents import Superposition
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 
 if TYPE_CHECKING:
     from fiveroute.ocean.currents import Current

@@ -10,9 +10,9 @@ import numpy as np
 
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.models import solve
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result
+from fiveroute.routes import Plan
 
 __all__ = ["solve_from_good_plan"]
 

@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from fiveroute.formats.plan_file import PlanFile
     from fiveroute.mission import Bounding, MissionPlan, Search
     from fiveroute.tiers.preplanning import Allocation
+    from fiveroute.vehicle_files import Choices
+    from fiveroute.verdict import Verdict
 
 __all__ = ["FleetPlan", "plan", "read", "sail", "solve"]
 
@@ -148,6 +150,93 @@ class FleetPlan:
 
         target = Path(path)
         write_plan(self.filed(), target, force, source=source or target)
+
+    def verify(self, folder: Path | None = None) -> Verdict:
+        """Ask the judge of plan files, who shares nothing with the planners.
+
+        Parameters
+        ----------
+        folder
+            Folder that the name of the instance's file of currents is relative to.
+        """
+        from fiveroute.verdict import judge
+
+        straight = self.voyage.legs is None
+        return judge(self.instance, self.filed(), folder, straight_lines=straight)
+
+    def view(
+        self,
+        path: str | PathLike[str] | None = None,
+        *,
+        force: bool = False,
+        folder: Path | None = None,
+    ) -> Path:
+        """Write a page that plays the plan, a picture, or a film, and return its file.
+
+        Parameters
+        ----------
+        path
+            The file, .html, .png, .svg, .pdf or .gif; None opens a page in the browser.
+        force
+            Overwrite an existing file.
+        folder
+            Folder that the name of the instance's file of currents is relative to.
+        """
+        from fiveroute.view.looks import require_look, write_look
+        from fiveroute.view.scene import scene_of
+
+        scenes = [scene_of(self.filed(), folder)]
+        if path is not None:
+            target = Path(path)
+            require_look(target)
+            write_look(scenes, target, force=force)
+            return target
+        import tempfile
+        import webbrowser
+
+        page = Path(tempfile.mkdtemp(prefix="fiveroute-")) / "plan.html"
+        write_look(scenes, page)
+        webbrowser.open(page.as_uri())
+        return page
+
+    def export(
+        self,
+        format_name: str,
+        path: str | PathLike[str],
+        choices: Choices | None = None,
+        *,
+        force: bool = False,
+    ) -> None:
+        """Write the plan for vehicles or map programs, or refuse an unsafe one.
+
+        Parameters
+        ----------
+        format_name
+            One of `fiveroute.vehicle_files.VEHICLE_FORMATS`.
+        path
+            File or folder.
+        choices
+            What the plan leaves open: depth, origin, names of the vehicles, departure.
+        force
+            Overwrite what is there.
+
+        Raises
+        ------
+        InputError
+            If the plan crosses land, dives too deep, takes too long, or the format cannot hold it.
+        """
+        from fiveroute.vehicle_files import export_plan
+
+        target = Path(path)
+        export_plan(self.filed(), target, format_name, target, choices, force)
+
+    def _repr_html_(self) -> str | None:
+        """A small map and a table, for notebooks."""
+        if self.result.plan is None:
+            return None
+        from fiveroute.view.notebook import plan_html
+
+        return plan_html(self.filed())
 
     def __str__(self) -> str:
         """A line an AUV, and the figures that matter."""

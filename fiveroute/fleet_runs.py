@@ -22,7 +22,7 @@ from fiveroute.fleet_plan import FleetPlan, sail
 from fiveroute.instance import Instance
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.paths.voyage import Voyage
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 
 if TYPE_CHECKING:
     from fiveroute.formats.plan_file import PlanFile

@@ -21,9 +21,9 @@ from fiveroute.heuristics.fleet_search import fleet_search
 from fiveroute.heuristics.shortest_routes import is_proved_infeasible
 from fiveroute.instance import Instance
 from fiveroute.limits import Clock, Limits, Progress, ProgressCallback
-from fiveroute.plan import Plan, Route
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result, Status, is_closed
+from fiveroute.routes import Plan, Route
 from fiveroute.sampling import RouteStatistic, SampledLegs, sample_legs
 from fiveroute.tiers.effort import effort_for
 from fiveroute.tiers.preplanning import Allocation, allocations, preplan

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from fiveroute.check import check
-from fiveroute.plan import Plan, Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan, Route
 
 __all__ = ["PROOF_TOLERANCE", "GiantRouteResult", "Result", "Status", "is_closed", "optimality_gap"]
 

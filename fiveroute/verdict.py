@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from fiveroute.check import Violation, check, check_claims
 from fiveroute.formats.plan_file import PlanFile
 from fiveroute.instance import Instance
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 
 if TYPE_CHECKING:
     from fiveroute.ocean.currents import Superposition

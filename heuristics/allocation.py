@@ -22,8 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.heuristics.insertion_route import insertion_route
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Route
 
 __all__ = ["Generators", "Linkage", "hierarchical", "k_means", "sub_routes", "voronoi"]
 

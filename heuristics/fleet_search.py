@@ -22,8 +22,8 @@ from fiveroute.errors import InputError
 from fiveroute.heuristics.fleet.archipelago import ISLANDS, Archipelago, crew
 from fiveroute.heuristics.shortest_routes import shortest_routes
 from fiveroute.limits import Limits, Progress, ProgressCallback
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 __all__ = ["default_trials", "fleet_search"]
 

@@ -28,8 +28,8 @@ from fiveroute.heuristics.tour.graph import Graph, giant_graph, route_of, tour_c
 from fiveroute.heuristics.tour.greedy import greedy_tour
 from fiveroute.heuristics.tour.local_search import improve, start_search
 from fiveroute.limits import Clock, Limits, Progress, ProgressCallback
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Route
 
 __all__ = ["ROUTES", "giant_routes"]
 

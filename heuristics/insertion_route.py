@@ -12,8 +12,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from fiveroute.heuristics.route_kernels import cheapest_place, shift_in, shorten
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Route
 
 __all__ = ["insertion_route", "various_routes"]
 

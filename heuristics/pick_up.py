@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.limits import Clock, Limits
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Route
 
 __all__ = ["RouteDuration", "insertions", "pick_up", "trim"]
 

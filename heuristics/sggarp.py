@@ -28,8 +28,8 @@ from fiveroute.heuristics.route_kernels import Case, Stops, collected, duration,
 from fiveroute.heuristics.variation import crossover, mutate, random_route
 from fiveroute.kernels import kernel
 from fiveroute.limits import Clock, Limits
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Route
 from fiveroute.sampling import SampledLegs
 
 __all__ = ["Genetics", "optimise_route"]

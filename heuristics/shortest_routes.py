@@ -13,8 +13,8 @@ from collections.abc import Collection
 
 import numpy as np
 
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Route
 
 __all__ = ["is_proved_infeasible", "shortest_route", "shortest_routes"]
 

@@ -17,9 +17,9 @@ from typing import cast
 
 from fiveroute.errors import InputError
 from fiveroute.limits import Limits, ProgressCallback
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result
+from fiveroute.routes import Plan
 
 __all__ = ["METHODS", "Method", "choose", "solve"]
 

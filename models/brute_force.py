@@ -31,9 +31,9 @@ from collections.abc import Iterator
 from fiveroute.errors import InputError
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.models.incumbent import Incumbent
-from fiveroute.plan import Plan, Route
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result
+from fiveroute.routes import Plan, Route
 
 __all__ = ["MOST_NODES", "solve", "supports"]
 

@@ -43,9 +43,9 @@ from fiveroute.models.interrupt import on_interrupt
 from fiveroute.models.legs import Leg, legs_of, route_along
 from fiveroute.models.reach import usable_legs
 from fiveroute.models.symmetry import equal_pairs, in_order
-from fiveroute.plan import Plan, Route
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result
+from fiveroute.routes import Plan, Route
 
 __all__ = ["solve", "supports"]
 

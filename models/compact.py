@@ -33,9 +33,9 @@ from fiveroute.models.max_flow_cuts import violated_sets
 from fiveroute.models.pyomo_program import translate
 from fiveroute.models.reach import usable_legs
 from fiveroute.models.symmetry import in_order
-from fiveroute.plan import Plan, Route
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result
+from fiveroute.routes import Plan, Route
 
 __all__ = ["solve", "supports"]
 

@@ -35,9 +35,9 @@ from fiveroute.models.greedy_plan import offer_greedy_plan
 from fiveroute.models.highs import Outcome, Program
 from fiveroute.models.incumbent import Incumbent
 from fiveroute.models.network import Network
-from fiveroute.plan import Plan, Route
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result
+from fiveroute.routes import Plan, Route
 
 __all__ = ["MOST_PARTIAL", "solve", "supports"]
 

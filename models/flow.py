@@ -50,9 +50,9 @@ from fiveroute.models.highs import Outcome
 from fiveroute.models.incumbent import Incumbent
 from fiveroute.models.network import Network
 from fiveroute.models.weak_duality import if_idle, if_used
-from fiveroute.plan import Plan, Route
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result
+from fiveroute.routes import Plan, Route
 
 __all__ = ["solve", "supports"]
 

@@ -20,7 +20,7 @@ from fiveroute.models.flow_relaxation import crossing, incidence
 from fiveroute.models.highs import Outcome, Program
 from fiveroute.models.legs import Leg, legs_of
 from fiveroute.models.network import Network
-from fiveroute.plan import Plan, Route
+from fiveroute.routes import Plan, Route
 
 __all__ = ["FlowProgram", "Routes", "arcs_of"]
 

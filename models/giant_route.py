@@ -30,9 +30,9 @@ from fiveroute.models.held_karp import HeldKarp, has_symmetric_nodes, held_karp,
 from fiveroute.models.tour_branching import BranchAndCut, Incumbent
 from fiveroute.models.tour_descent import good_route
 from fiveroute.models.tour_relaxation import Links
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import PROOF_TOLERANCE, GiantRouteResult, Status
+from fiveroute.routes import Route
 
 __all__ = ["solve_giant_route"]
 

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from fiveroute.limits import Clock
 from fiveroute.models.incumbent import Incumbent
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 __all__ = ["greedy_plan", "offer_greedy_plan"]
 

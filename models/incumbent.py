@@ -13,9 +13,9 @@ import threading
 
 from fiveroute.check import check
 from fiveroute.limits import Limits, Progress, ProgressCallback
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result, is_closed, optimality_gap
+from fiveroute.routes import Plan
 
 __all__ = ["Incumbent"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from itertools import pairwise
 
-from fiveroute.plan import Route
+from fiveroute.routes import Route
 
 __all__ = ["Leg", "legs_of", "route_along"]
 

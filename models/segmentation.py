@@ -40,8 +40,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Route
 
 __all__ = ["Balance", "imbalance", "segment"]
 

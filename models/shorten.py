@@ -11,8 +11,8 @@ import numpy as np
 
 from fiveroute.limits import Clock, Limits
 from fiveroute.models.tour_descent import good_route
-from fiveroute.plan import Plan, Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan, Route
 
 __all__ = ["shortened"]
 

@@ -36,9 +36,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from fiveroute.errors import InputError
 from fiveroute.limits import Clock, Limits
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Status
+from fiveroute.routes import Route
 from fiveroute.sampling import RouteStatistic, route_times
 
 __all__ = ["MOST_NODES", "SampledResult", "solve_sampled"]

@@ -13,8 +13,8 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 __all__ = ["equal_pairs", "in_order"]
 

@@ -26,9 +26,9 @@ from fiveroute.models.highs import Outcome
 from fiveroute.models.tour_cuts import Pairs, violated_cuts
 from fiveroute.models.tour_descent import good_route, nearest_neighbours
 from fiveroute.models.tour_relaxation import Links, TourRelaxation
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import PROOF_TOLERANCE
+from fiveroute.routes import Route
 
 __all__ = ["BranchAndCut", "Incumbent"]
 

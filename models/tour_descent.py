@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
 from fiveroute.limits import Clock
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Route
 
 __all__ = ["good_route"]
 

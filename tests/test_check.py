@@ -5,8 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fiveroute.check import Violation, check, check_claims
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 LINE = TeamOrienteering(
     travel=[[abs(i - j) for j in range(5)] for i in range(5)],

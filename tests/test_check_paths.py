@@ -13,7 +13,7 @@ from fiveroute.instance import Circle, Fleet, Instance, Node, Ocean, Point, Poly
 from fiveroute.ocean.current_grid import Region, grid_current
 from fiveroute.ocean.currents import LambVortices, Shear, Superposition, UniformCurrent
 from fiveroute.paths.legs import track_time
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 
 STILL = Superposition(())
 LINE = np.array([[0.0, 0.0], [1000.0, 0.0]])

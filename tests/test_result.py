@@ -1,8 +1,8 @@
 import pytest
 
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import GiantRouteResult, Result, Status, is_closed, optimality_gap
+from fiveroute.routes import Plan
 
 TWO = TeamOrienteering(
     travel=[[0, 1, 1, 1], [1, 0, 1, 1], [1, 1, 0, 1], [1, 1, 1, 0]],

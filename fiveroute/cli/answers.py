@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from fiveroute.instance import Instance
-from fiveroute.plan import Route
 from fiveroute.result import GiantRouteResult, Status
+from fiveroute.routes import Route
 
 if TYPE_CHECKING:
     from fiveroute.decide.sweep import Sweep

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from fiveroute.instance import Instance
     from fiveroute.limits import Limits, ProgressCallback
     from fiveroute.paths.voyage import Voyage
-    from fiveroute.plan import Plan
+    from fiveroute.routes import Plan
     from fiveroute.sea.simulation import SimulationResult
     from fiveroute.sea.theatre import Theatre
 
@@ -269,7 +269,7 @@ def _steering(config: dict[str, Any]) -> dict[str, Any]:
 
 def _routes(filed: PlanFile, voyage: Voyage) -> Plan:
     """The routes of a plan file over the nodes that can be reached."""
-    from fiveroute.plan import Plan
+    from fiveroute.routes import Plan
 
     vertex = {node.id: k for k, node in enumerate(voyage.instance.nodes, start=1)}
     return Plan.of([vertex[name] for name in route if name in vertex] for route in filed.routes)

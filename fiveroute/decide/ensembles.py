@@ -35,8 +35,8 @@ from fiveroute.ocean.stated import stated_current
 from fiveroute.ocean.uncertain_ocean import VortexUncertainty, draw_truth
 from fiveroute.paths.legs import track_time
 from fiveroute.paths.voyage import Voyage
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 from fiveroute.tiers.pathing import waters_of
 
 __all__ = [

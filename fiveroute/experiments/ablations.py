@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from fiveroute.generate import paper_scenario
 from fiveroute.instance import Instance
 from fiveroute.mission import plan_mission
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.departure import departure_plan
 from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre

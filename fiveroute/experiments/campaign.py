@@ -15,7 +15,7 @@ from typing import Any
 from fiveroute.experiments.journal import Journal
 from fiveroute.experiments.sharing import share_out
 from fiveroute.limits import Limits, Progress, ProgressCallback
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.simulation import SimulationResult, simulate_fleet
 from fiveroute.sea.theatre import Theatre
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from fiveroute.generate import paper_scenario
 from fiveroute.instance import Instance
-from fiveroute.plan import Plan, Route
+from fiveroute.routes import Plan, Route
 from fiveroute.sea.auction import assign_by_auction
 from fiveroute.sea.course import Course, Outlook, outlook
 from fiveroute.sea.departure import departure_plan

@@ -21,9 +21,9 @@ from fiveroute.models import solve
 from fiveroute.models.bounds import quick_bound
 from fiveroute.paths.voyage import Voyage
 from fiveroute.peers import PeerAnswer, ask
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result, Status, is_closed, optimality_gap
+from fiveroute.routes import Plan
 
 __all__ = ["GapRow", "GapSettings", "Side", "measure"]
 

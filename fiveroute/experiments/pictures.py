@@ -22,7 +22,7 @@ from fiveroute.errors import InputError
 from fiveroute.formats.files import written_whole
 from fiveroute.instance import Instance
 from fiveroute.paths.legs import Waters
-from fiveroute.plan import Route
+from fiveroute.routes import Route
 from fiveroute.tiers.pathing import PlannedPath
 
 __all__ = [

@@ -23,8 +23,8 @@ from fiveroute.instance import Instance
 from fiveroute.limits import Limits
 from fiveroute.models.bounds import quick_bound
 from fiveroute.models.giant_route import solve_giant_route
-from fiveroute.plan import Plan, Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan, Route
 from fiveroute.tiers.preplanning import Allocation, allocations
 from fiveroute.tiers.routing import RouteSearch, Routing, best_routing
 

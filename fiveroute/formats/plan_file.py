@@ -30,9 +30,9 @@ from fiveroute.formats.native import (
     relocated,
 )
 from fiveroute.instance import Instance
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result, Status
+from fiveroute.routes import Plan
 
 if TYPE_CHECKING:
     from fiveroute.paths.leg_table import LegTable

@@ -18,8 +18,8 @@ from types import MappingProxyType
 from fiveroute.check import check
 from fiveroute.errors import InputError, MissingExtraError
 from fiveroute.limits import Limits
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 __all__ = ["PEERS", "Peer", "PeerAnswer", "ask", "require_peers"]
 

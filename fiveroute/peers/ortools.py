@@ -26,8 +26,8 @@ from ortools.constraint_solver.routing_enums_pb2 import (
 
 from fiveroute.limits import Clock, Limits
 from fiveroute.peers.scaled import scaled_times
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 __all__ = ["plan"]
 

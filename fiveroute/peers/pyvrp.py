@@ -27,8 +27,8 @@ from pyvrp.search import OPERATORS, LocalSearch, PerturbationManager, compute_ne
 
 from fiveroute.limits import Clock, Limits
 from fiveroute.peers.scaled import ScaledTimes, scaled_times
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 __all__ = ["plan"]
 

@@ -20,8 +20,8 @@ import vroom
 
 from fiveroute.limits import Limits
 from fiveroute.peers.scaled import scaled_profit, scaled_times
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 __all__ = ["plan"]
 

@@ -14,8 +14,8 @@ import numpy as np
 from fiveroute.heuristics.fleet_search import fleet_search
 from fiveroute.heuristics.pick_up import trim
 from fiveroute.heuristics.shortest_routes import shortest_routes
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 from fiveroute.sea.luck import Luck
 
 __all__ = ["clairvoyant_plan"]

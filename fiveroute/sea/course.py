@@ -32,8 +32,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Route
 from fiveroute.tiers.actuation import LegLaw, expected_legs
 
 __all__ = ["Course", "Outlook", "Stops", "in_hand", "outlook", "time_in_hand"]

@@ -24,8 +24,8 @@ from fiveroute.heuristics.pick_up import trim
 from fiveroute.heuristics.sggarp import optimise_route
 from fiveroute.heuristics.shortest_routes import shortest_routes
 from fiveroute.limits import Clock, Limits
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
 from fiveroute.tiers.actuation import expected_legs

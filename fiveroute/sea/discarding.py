@@ -16,7 +16,7 @@ import math
 from dataclasses import replace
 
 from fiveroute.kernels import kernel
-from fiveroute.plan import Route
+from fiveroute.routes import Route
 from fiveroute.sea.course import Course, Outlook, Stops, time_in_hand
 
 __all__ = ["discard", "shed"]

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
-from fiveroute.plan import Route
+from fiveroute.routes import Route
 from fiveroute.sea.course import Course, Outlook, Stops, time_in_hand
 
 __all__ = ["EXACT", "best_courses"]

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from fiveroute.heuristics.randomness import RandomState, below, uniform
 from fiveroute.kernels import kernel
-from fiveroute.plan import Route
+from fiveroute.routes import Route
 from fiveroute.sea.course import Course, Outlook, Stops, time_in_hand
 from fiveroute.sea.discarding import discard
 from fiveroute.sea.exact_replanning import EXACT, best_courses

@@ -19,8 +19,8 @@ from fiveroute.check import check
 from fiveroute.errors import InputError
 from fiveroute.instance import Instance
 from fiveroute.limits import Limits, Progress, ProgressCallback
-from fiveroute.plan import Plan
 from fiveroute.problem import TIME_TOLERANCE
+from fiveroute.routes import Plan
 from fiveroute.sea.channel import PRESETS, Channel
 from fiveroute.sea.clairvoyant import clairvoyant_plan
 from fiveroute.sea.course import Outlook, outlook

@@ -24,9 +24,9 @@ from fiveroute.heuristics.fleet_size import FleetEstimate, estimate_fleet_size
 from fiveroute.heuristics.shortest_routes import is_proved_infeasible
 from fiveroute.instance import Instance
 from fiveroute.limits import Limits, ProgressCallback
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import GiantRouteResult, Status, is_closed
+from fiveroute.routes import Route
 
 __all__ = ["Allocation", "Preplan", "allocations", "find_giant_route", "fleet_size_of", "preplan"]
 

@@ -23,8 +23,8 @@ from fiveroute.heuristics.pick_up import RouteDuration, insertions, pick_up, tri
 from fiveroute.heuristics.sggarp import Genetics, optimise_route
 from fiveroute.heuristics.shortest_routes import shortest_routes
 from fiveroute.limits import Clock, Limits
-from fiveroute.plan import Plan, Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan, Route
 from fiveroute.sampling import SampledLegs
 
 __all__ = ["RouteSearch", "Routing", "best_routing", "plan_routes"]

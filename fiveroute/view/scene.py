@@ -11,7 +11,7 @@ from fiveroute.instance import Currents, Instance
 from fiveroute.ocean.current_grid import Region
 from fiveroute.ocean.currents import Superposition
 from fiveroute.ocean.stated import stated_current
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.view.chart import Chart, chart_of, region_of, seen_current
 from fiveroute.view.event_log import RunLog
 from fiveroute.view.timed_legs import Leg, Shapes, planned_legs, shapes_of

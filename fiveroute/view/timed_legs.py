@@ -20,7 +20,7 @@ from fiveroute.formats.plan_file import PlanFile
 from fiveroute.instance import Instance
 from fiveroute.metric import distances
 from fiveroute.ocean.currents import Current
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.events import Event
 
 __all__ = ["Leg", "Shape", "Shapes", "planned_legs", "sailed_legs", "shapes_of", "track_of"]

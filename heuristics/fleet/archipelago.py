@@ -25,8 +25,8 @@ from fiveroute.heuristics.fleet.island import Island
 from fiveroute.heuristics.fleet.network import build_network
 from fiveroute.heuristics.fleet.route_pool import Pool
 from fiveroute.heuristics.randomness import random_state
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 __all__ = ["ISLANDS", "Archipelago", "ForEach", "crew", "stage"]
 

@@ -25,8 +25,8 @@ from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
 from fiveroute.limits import Clock
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Route
 
 __all__ = ["NEIGHBOURS", "Graph", "edge_cost", "giant_graph", "route_of", "tour_cost"]
 

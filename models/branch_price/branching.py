@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.models.branch_price.pool import Pool
-from fiveroute.plan import Route
+from fiveroute.routes import Route
 
 __all__ = ["Branch", "by_leg", "by_node", "doubtful_legs", "doubtful_nodes", "most_telling"]
 

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.models.branch_price.pricing import Cut
-from fiveroute.plan import Route
+from fiveroute.routes import Route
 
 __all__ = ["MOST_CUTS", "separate"]
 

@@ -16,7 +16,7 @@ from fiveroute.limits import Clock
 from fiveroute.models.branch_price.pool import Pool
 from fiveroute.models.branch_price.pricing import Duals, Priced
 from fiveroute.models.branch_price.roads import Roads
-from fiveroute.plan import Route
+from fiveroute.routes import Route
 
 __all__ = ["Inspector"]
 

@@ -31,7 +31,7 @@ from fiveroute.limits import Clock
 from fiveroute.models.branch_price.pricing import Cut, Duals
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.models.highs import Outcome, Program
-from fiveroute.plan import Route
+from fiveroute.routes import Route
 
 __all__ = ["Master"]
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.models.branch_price.roads import Roads
-from fiveroute.plan import Route
+from fiveroute.routes import Route
 
 __all__ = ["MOST_NEIGHBOURS", "grow", "is_forgetful", "nearest"]
 

@@ -21,8 +21,8 @@ from fiveroute.models.branch_price.roads import Roads
 from fiveroute.models.common_divisor import common_divisor
 from fiveroute.models.highs import Outcome, Program
 from fiveroute.models.incumbent import Incumbent
-from fiveroute.plan import Plan, Route
 from fiveroute.result import PROOF_TOLERANCE
+from fiveroute.routes import Plan, Route
 
 __all__ = ["BETTER", "Pool", "plan_of", "sail_best", "stops_of", "taking"]
 

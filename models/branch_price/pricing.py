@@ -27,7 +27,7 @@ from fiveroute.models.branch_price import labels as lb
 from fiveroute.models.branch_price.completion import Completion, complete, nearest_nodes, over_legs
 from fiveroute.models.branch_price.join import join_at, labels_at
 from fiveroute.models.branch_price.roads import Roads, is_mirrored
-from fiveroute.plan import Route
+from fiveroute.routes import Route
 
 __all__ = ["Cut", "Duals", "Priced", "Pricer"]
 

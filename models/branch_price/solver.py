@@ -21,9 +21,9 @@ from fiveroute.models.common_divisor import common_divisor, rounded_down
 from fiveroute.models.greedy_plan import offer_greedy_plan
 from fiveroute.models.incumbent import Incumbent
 from fiveroute.models.network import Network
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result
+from fiveroute.routes import Plan
 
 __all__ = ["solve", "supports"]
 

@@ -25,7 +25,7 @@ from fiveroute.models.branch_price.neighbourhoods import grow, is_forgetful
 from fiveroute.models.branch_price.pool import Pool, stops_of, taking
 from fiveroute.models.branch_price.pricing import Cut, Pricer
 from fiveroute.models.branch_price.roads import Roads
-from fiveroute.plan import Route
+from fiveroute.routes import Route
 
 __all__ = ["Subproblem"]
 

@@ -17,9 +17,9 @@ from fiveroute.check import check
 from fiveroute.errors import InputError
 from fiveroute.limits import Limits, Progress
 from fiveroute.models import METHODS, choose, solve
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import PROOF_TOLERANCE, Result, Status
+from fiveroute.routes import Plan
 
 
 def plane(points: list[tuple[float, float]]) -> NDArray[np.float64]:

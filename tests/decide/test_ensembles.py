@@ -20,7 +20,7 @@ from fiveroute.instance import Instance, Ocean, Vortex
 from fiveroute.ocean.stated import stated_current
 from fiveroute.ocean.uncertain_ocean import VortexUncertainty
 from fiveroute.paths.voyage import Voyage
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from fiveroute.experiments.campaign import Campaign, sail_campaign
 from fiveroute.experiments.run_table import event_lines, require_table, write_table
 from fiveroute.instance import Fleet, Instance, Node, Point
 from fiveroute.limits import Limits, Progress
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.simulation import SimulationResult, simulate_fleet
 from fiveroute.sea.theatre import Theatre
 

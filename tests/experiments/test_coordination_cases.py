@@ -5,7 +5,7 @@ import pytest
 
 from fiveroute.experiments.coordination_cases import Case, Sailed, busiest_auction
 from fiveroute.generate import generate
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.events import Event
 from fiveroute.sea.simulation import RunResult, simulate_fleet
 from fiveroute.sea.theatre import Theatre

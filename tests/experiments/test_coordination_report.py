@@ -8,7 +8,7 @@ from fiveroute.errors import InputError
 from fiveroute.experiments.coordination_cases import Case
 from fiveroute.experiments.coordination_report import FILES, report, summary, write_report
 from fiveroute.generate import generate
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
 

@@ -14,7 +14,7 @@ import pytest
 from fiveroute.experiments.campaign import Campaign, sail_campaign
 from fiveroute.experiments.journal import Journal
 from fiveroute.generate import generate
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.simulation import RunResult, simulate_fleet
 from fiveroute.sea.theatre import Theatre
 
@@ -24,7 +24,7 @@ from pathlib import Path
 from fiveroute.experiments.campaign import Campaign, sail_campaign
 from fiveroute.experiments.journal import Journal
 from fiveroute.generate import generate
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.theatre import Theatre
 
 campaign = Campaign(Theatre.of(generate(nodes=8, seed=1), 2), Plan(((1, 2, 3), (4, 5))), 12, {})

@@ -14,7 +14,7 @@ from fiveroute.experiments.sea_pictures import (
     timeline,
 )
 from fiveroute.generate import generate
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from fiveroute.errors import InputError
 from fiveroute.formats import FORMATS, PlanFile, native, read_instance, read_plan, write_plan
 from fiveroute.instance import Circle, Fleet, Instance, Node, Ocean, Point, Polygon, Service
-from fiveroute.plan import Plan
 from fiveroute.result import Result
+from fiveroute.routes import Plan
 
 FULL = Instance(
     name="full",

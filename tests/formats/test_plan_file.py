@@ -10,8 +10,8 @@ from fiveroute.check import check
 from fiveroute.errors import InputError
 from fiveroute.formats import PlanFile, instance_hash, read_plan, write_plan
 from fiveroute.instance import Currents, Fleet, Instance, Node, Ocean, Point
-from fiveroute.plan import Plan
 from fiveroute.result import Result, Status
+from fiveroute.routes import Plan
 
 # Two AUVs along a line; three nodes of which the last one is out of reach.
 LINE = Instance(

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fiveroute.heuristics.allocation import hierarchical, k_means, sub_routes, voronoi
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Route
 
 Allocate = Callable[[np.ndarray, int, np.random.Generator], tuple[Route, ...]]
 

@@ -8,8 +8,8 @@ from fiveroute.errors import InputError
 from fiveroute.heuristics.fleet_search import default_trials, fleet_search
 from fiveroute.limits import Limits, Progress
 from fiveroute.models.brute_force import solve as brute_force
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 
 def random_problem(seed: int, most: int = 8) -> TeamOrienteering:

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from fiveroute.heuristics.giant_route import ROUTES, giant_routes
 from fiveroute.limits import Limits, Progress
 from fiveroute.models.giant_route import solve_giant_route
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Status
+from fiveroute.routes import Route
 
 
 def problem_of(travel: np.ndarray, service: np.ndarray | None = None) -> TeamOrienteering:

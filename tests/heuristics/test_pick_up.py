@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from fiveroute.check import check
 from fiveroute.heuristics.pick_up import insertions, pick_up, trim
 from fiveroute.limits import Limits
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 
 def line(places: list[float], data: list[float], budgets: list[float]) -> TeamOrienteering:

@@ -11,8 +11,8 @@ from fiveroute.heuristics.sggarp import Genetics, optimise_route
 from fiveroute.instance import Uncertainty
 from fiveroute.limits import Limits
 from fiveroute.models.stochastic import solve_sampled
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Route
 from fiveroute.sampling import RouteStatistic, SampledLegs, sample_legs
 
 

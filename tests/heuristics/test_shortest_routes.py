@@ -13,8 +13,8 @@ from fiveroute.heuristics.shortest_routes import (
     shortest_route,
     shortest_routes,
 )
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 
 @st.composite

@@ -12,9 +12,9 @@ from fiveroute.check import check
 from fiveroute.errors import InputError
 from fiveroute.limits import Limits
 from fiveroute.models.brute_force import MOST_NODES, quickest_routes, solve, supports
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Status
+from fiveroute.routes import Plan
 
 
 def every_plan_tried(problem: TeamOrienteering) -> float | None:

@@ -8,9 +8,9 @@ import pytest
 
 from fiveroute.limits import Limits
 from fiveroute.models import circuit
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Status
+from fiveroute.routes import Plan
 
 
 def scattered(n: int, budgets: list[float], seed: int) -> TeamOrienteering:

@@ -11,9 +11,9 @@ from fiveroute.models import compact
 from fiveroute.models.compact_model import Reading, formulate
 from fiveroute.models.highs import Outcome
 from fiveroute.models.pyomo_program import translate
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Status
+from fiveroute.routes import Plan
 
 PRINTED_STARTS = Reading(aggregated_starts=True)
 PRINTED_POSITIONS = Reading(printed_positions=True)

@@ -13,9 +13,9 @@ import pytest
 
 from fiveroute.limits import Limits, Progress
 from fiveroute.models import flow
-from fiveroute.plan import Plan
 from fiveroute.problem import TIME_TOLERANCE, TeamOrienteering
 from fiveroute.result import Status
+from fiveroute.routes import Plan
 
 
 @pytest.mark.parametrize("seed", range(150))

@@ -9,8 +9,8 @@ from fiveroute.limits import Limits
 from fiveroute.models.flow_program import FlowProgram, Routes, arcs_of
 from fiveroute.models.highs import Outcome
 from fiveroute.models.network import Network
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 
 def whole(problem: TeamOrienteering) -> FlowProgram:

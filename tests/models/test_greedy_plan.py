@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from fiveroute.check import check
 from fiveroute.models.greedy_plan import greedy_plan
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 
 def test_the_greatest_weight_a_second_goes_first() -> None:

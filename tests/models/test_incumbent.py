@@ -4,9 +4,9 @@ import pytest
 
 from fiveroute.limits import Limits, Progress
 from fiveroute.models.incumbent import Incumbent
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Status
+from fiveroute.routes import Plan
 
 # Two nodes of data 1 and 3, one second between any two vertices, time for one of them.
 PROBLEM = TeamOrienteering([[0, 1, 1, 1]] * 4, [0] * 4, [0, 1, 3, 0], [2.0])

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from fiveroute.errors import InputError
 from fiveroute.models.segmentation import Balance, imbalance, segment
-from fiveroute.plan import Route
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Route
 
 
 def line(places: list[float], service: float = 0.0) -> TeamOrienteering:

@@ -4,8 +4,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fiveroute.models.shorten import shortened
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 LINE = TeamOrienteering(
     travel=[[abs(i - j) for j in range(6)] for i in range(6)],

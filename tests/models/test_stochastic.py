@@ -11,9 +11,9 @@ from fiveroute.errors import InputError
 from fiveroute.limits import Limits
 from fiveroute.models import brute_force
 from fiveroute.models.stochastic import MOST_NODES, solve_sampled
-from fiveroute.plan import Route
 from fiveroute.problem import TIME_TOLERANCE, TeamOrienteering
 from fiveroute.result import Status
+from fiveroute.routes import Route
 from fiveroute.sampling import RouteStatistic, route_times
 
 Case = tuple[np.ndarray, np.ndarray, np.ndarray, float]

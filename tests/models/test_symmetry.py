@@ -3,8 +3,8 @@
 import numpy as np
 
 from fiveroute.models.symmetry import equal_pairs, in_order
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 # AUVs 0, 2 and 3 are equal.
 PROBLEM = TeamOrienteering(np.zeros((6, 6)), [0] * 6, [0] * 6, [5.0, 3.0, 5.0, 5.0])

@@ -11,8 +11,8 @@ from fiveroute.errors import InputError, MissingExtraError
 from fiveroute.limits import Limits
 from fiveroute.models import solve
 from fiveroute.peers import PEERS, ask, require_peers
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 
 def problem(seed: int, nodes: int = 9) -> TeamOrienteering:

@@ -6,8 +6,8 @@ from hypothesis import strategies as st
 
 from fiveroute.check import check
 from fiveroute.peers.scaled import scaled_profit, scaled_times
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 
 def problem(rng: np.random.Generator, nodes: int = 6, scale: float = 1.0) -> TeamOrienteering:

@@ -14,8 +14,8 @@ from fiveroute.instance import (
     Polygon,
     Vortex,
 )
-from fiveroute.plan import Plan
 from fiveroute.result import Result
+from fiveroute.routes import Plan
 from fiveroute.sea.events import Event
 from fiveroute.view.event_log import RunLog
 from fiveroute.view.scene import Scene, scene_of

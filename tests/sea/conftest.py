@@ -5,7 +5,7 @@ import pytest
 
 from fiveroute.generate import generate
 from fiveroute.heuristics.fleet_search import fleet_search
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.theatre import Theatre
 
 

@@ -6,7 +6,7 @@ from collections import Counter
 import numpy as np
 
 from fiveroute.generate import generate
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.channel import Channel
 from fiveroute.sea.consensus import COLLECTED
 from fiveroute.sea.course import outlook

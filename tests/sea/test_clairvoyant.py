@@ -5,7 +5,7 @@ import numpy as np
 from fiveroute.check import check
 from fiveroute.generate import generate
 from fiveroute.models import solve
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.clairvoyant import clairvoyant_plan
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.simulation import simulate_fleet

@@ -5,7 +5,7 @@ import pytest
 from fiveroute.check import check
 from fiveroute.generate import generate
 from fiveroute.limits import Limits
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.departure import departure_plan, rehearse
 from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fiveroute.plan import Route
+from fiveroute.routes import Route
 from fiveroute.sea.course import Course, Outlook, in_hand, outlook
 from fiveroute.sea.exact_replanning import best_courses
 from fiveroute.sea.theatre import Theatre

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from fiveroute.generate import generate
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.agent import BEAT
 from fiveroute.sea.channel import Bursts, Channel
 from fiveroute.sea.course import in_hand, outlook

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fiveroute.plan import Plan, Route
+from fiveroute.routes import Plan, Route
 from fiveroute.sea import fleet_replanning
 from fiveroute.sea.course import Course, Outlook, in_hand, outlook
 from fiveroute.sea.exact_replanning import best_courses

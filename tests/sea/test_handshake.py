@@ -6,7 +6,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.agent import Agent
 from fiveroute.sea.channel import Channel
 from fiveroute.sea.course import outlook

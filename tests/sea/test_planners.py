@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from fiveroute.generate import generate
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.course import outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.all_knowing import AllKnowing

@@ -15,7 +15,7 @@ from fiveroute.limits import Limits
 from fiveroute.ocean.current_grid import CurrentGrid
 from fiveroute.paths.leg_table import LegTable
 from fiveroute.paths.voyage import Voyage
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.sailed_luck import SailedLuck, VehicleModel
 from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre

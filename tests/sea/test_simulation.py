@@ -10,7 +10,7 @@ from fiveroute.errors import InputError
 from fiveroute.generate import generate
 from fiveroute.instance import Uncertainty
 from fiveroute.limits import Limits
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.simulation import PLANNERS, RunResult, simulate_fleet
 from fiveroute.sea.theatre import Theatre

@@ -9,7 +9,7 @@ import pytest
 
 from fiveroute.generate import generate
 from fiveroute.paths.voyage import Voyage
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.sailed_luck import VehicleModel
 from fiveroute.sea.simulation import RunResult, simulate_fleet
 from fiveroute.sea.theatre import Theatre

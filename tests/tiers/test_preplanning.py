@@ -9,8 +9,8 @@ from fiveroute.errors import InputError
 from fiveroute.generate import paper_scenario, scenario
 from fiveroute.instance import Fleet, Instance, Node, Point
 from fiveroute.limits import Limits
-from fiveroute.plan import Plan
 from fiveroute.result import Status
+from fiveroute.routes import Plan
 from fiveroute.tiers.preplanning import Allocation, allocations, find_giant_route, preplan
 
 METHODS: tuple[Allocation, ...] = ("giant-route", "voronoi", "k-means", "ahc")

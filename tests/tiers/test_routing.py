@@ -13,8 +13,8 @@ from fiveroute.heuristics.shortest_routes import shortest_routes
 from fiveroute.instance import Uncertainty
 from fiveroute.limits import Limits
 from fiveroute.models.segmentation import segment
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 from fiveroute.sampling import RouteStatistic, SampledLegs, sample_legs
 from fiveroute.tiers.routing import RouteSearch, best_routing, plan_routes
 

@@ -17,8 +17,8 @@ from fiveroute.instance import (
     Service,
     Vortex,
 )
-from fiveroute.plan import Plan
 from fiveroute.result import Result
+from fiveroute.routes import Plan
 
 HOSTILE = "</script><img src=x onerror=alert(1)>&\u2028"
 

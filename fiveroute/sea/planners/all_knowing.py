@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from fiveroute.plan import Plan, Route
+from fiveroute.routes import Plan, Route
 from fiveroute.sea.course import Course, Outlook
 from fiveroute.sea.discarding import discard
 from fiveroute.sea.replanning import TRIALS, replan

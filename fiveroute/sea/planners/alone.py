@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from fiveroute.kernels import kernel
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.course import Outlook, Stops
 from fiveroute.sea.discarding import discard, shed
 from fiveroute.sea.luck import leg_luck

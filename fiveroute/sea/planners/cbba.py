@@ -28,7 +28,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.plan import Plan
+from fiveroute.routes import Plan
 from fiveroute.sea.bundle import Bundle
 from fiveroute.sea.channel import Channel, Radio
 from fiveroute.sea.consensus import COLLECTED, HELD, NOBODY, Beliefs, View

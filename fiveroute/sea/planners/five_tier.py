@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.heuristics.pick_up import insertions
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 from fiveroute.sea.agent import Agent
 from fiveroute.sea.channel import Channel, Radio
 from fiveroute.sea.course import Outlook

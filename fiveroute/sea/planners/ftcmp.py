@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fiveroute.plan import Route
+from fiveroute.routes import Route
 from fiveroute.sea.picking import offers
 from fiveroute.sea.planners.all_knowing import AllKnowing
 

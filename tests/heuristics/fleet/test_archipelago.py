@@ -11,8 +11,8 @@ from fiveroute.heuristics.fleet.archipelago import (
     crew,
     stage,
 )
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 
 def problem() -> TeamOrienteering:

@@ -1,5 +1,5 @@
-from fiveroute.plan import Plan
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
 LINE = TeamOrienteering(
     travel=[[abs(i - j) for j in range(5)] for i in range(5)],

@@ -1,0 +1,92 @@
+"""What ``import fiveroute`` offers: complete, lazy, and the same as the command line."""
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import fiveroute as fr
+from fiveroute.formats import write_instance
+from fiveroute.generate import generate
+from fiveroute.vehicle_files import Choices
+
+
+@pytest.fixture(scope="module")
+def sea() -> fr.Instance:
+    instance = generate("uniform", nodes=8, seed=2)
+    fleet = replace(instance.fleet, size=2, endurance=9000.0)
+    return replace(instance, fleet=fleet, ocean=type(instance.ocean)())
+
+
+def test_every_name_can_be_had() -> None:
+    assert set(fr.__all__) <= set(dir(fr))
+    for name in fr.__all__:
+        assert getattr(fr, name) is not None
+    with pytest.raises(AttributeError, match="nonsense"):
+        _ = fr.nonsense  # type: ignore[attr-defined]
+
+
+def test_importing_it_loads_next_to_nothing() -> None:
+    script = "import sys, fiveroute; print(len([m for m in sys.modules if 'numpy' in m]))"
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.strip() == "0"
+
+
+def test_a_plan_knows_its_gap(sea: fr.Instance) -> None:
+    plan = fr.plan(sea)
+    assert plan.objective is not None
+    assert plan.bound is not None
+    assert plan.objective <= plan.bound + 1e-9
+    assert plan.gap == pytest.approx(max(plan.bound - plan.objective, 0.0) / plan.objective)
+    assert len(plan.routes) == len(plan.durations) == plan.fleet_size == 2
+    assert max(plan.durations) <= 9000.0 * (1 + 1e-9)
+    assert plan.verify().feasible
+    assert str(plan).count("AUV") == 2
+    assert "<svg" in (plan._repr_html_() or "")
+
+
+def test_an_exact_method_proves_no_less(sea: fr.Instance) -> None:
+    plan, proved = fr.plan(sea), fr.solve(sea)
+    assert proved.status is fr.Status.OPTIMAL
+    assert proved.gap == 0.0
+    assert (plan.objective or 0.0) <= (proved.objective or 0.0) + 1e-9
+
+
+def test_a_plan_goes_into_files(sea: fr.Instance, tmp_path: Path) -> None:
+    plan = fr.plan(sea, limits=30)
+    plan.save(tmp_path / "plan.json")
+    filed = json.loads((tmp_path / "plan.json").read_text())
+    assert filed["routes"] == plan.routes
+    assert plan.view(tmp_path / "plan.html").read_text().startswith("<!")
+    choices = Choices(depth=10.0, origin=(8.6, 63.9))
+    plan.export("csv", tmp_path / "plan.csv", choices)
+    assert (tmp_path / "plan.csv").stat().st_size > 0
+    with pytest.raises(fr.InputError, match="force"):
+        plan.save(tmp_path / "plan.json")
+
+
+def test_an_instance_is_read_wherever_it_lies(
+    sea: fr.Instance, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    currents = replace(sea.ocean.currents, file="forecast.nc")
+    named = replace(sea, ocean=replace(sea.ocean, currents=currents))
+    write_instance(named, tmp_path / "sea.json", "native")
+    monkeypatch.chdir(tmp_path)
+    instance = fr.read("sea.json")
+    assert instance.ocean.currents.file == str(tmp_path / "forecast.nc")
+    with pytest.raises(fr.InputError, match=r"forecast\.nc"):
+        fr.plan(instance)
+
+
+def test_runs_at_sea_are_repeatable(sea: fr.Instance) -> None:
+    uncertain = replace(sea, uncertainty=replace(sea.uncertainty, drift=0.2))
+    plan = fr.plan(uncertain)
+    one, two = (fr.simulate(uncertain, plan, runs=4, seed=3) for _ in range(2))
+    assert one.completions.tolist() == two.completions.tolist()
+    assert one.fleet_size == 2
+    assert fr.simulate(uncertain, runs=2).runs
