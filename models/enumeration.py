@@ -35,6 +35,7 @@ from fiveroute.models.greedy_plan import offer_greedy_plan
 from fiveroute.models.highs import Outcome, Program
 from fiveroute.models.incumbent import Incumbent
 from fiveroute.models.network import Network
+from fiveroute.models.unreduced import UNREDUCED
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result
 from fiveroute.routes import Plan, Route
@@ -50,7 +51,6 @@ MOST_PARTIAL = 1_000_000
 _BITS = 62  # nodes in a word
 _SAFE = 1.0 + 1e-11  # limits grow by this factor: the order of a sum must not cost a route
 _METRIC = 1e-14  # share of the horizon by which a detour may be shorter, through rounding
-_QUICK_TO_PRESOLVE = 5000  # sets up to which presolving takes no time to speak of
 _MARGIN = 1e-7  # what HiGHS may be wrong by, in units of the data
 
 
@@ -182,8 +182,8 @@ class _Choice:
         self.program.require_integers(True)
         self.program.set("mip_rel_gap", self.incumbent.clock.limits.gap)
         self.program.set("mip_abs_gap", 0.0)
-        if len(self.places) > _QUICK_TO_PRESOLVE:
-            self.program.set("presolve", "off")  # it looks at no clock
+        for option, value in UNREDUCED.items():
+            self.program.set(option, value)
         outcome = self.program.solve()
         if self.program.has_solution:
             self._offer(self.program.values)

@@ -21,6 +21,7 @@ from fiveroute.models.branch_price.roads import Roads
 from fiveroute.models.common_divisor import common_divisor
 from fiveroute.models.highs import Outcome, Program
 from fiveroute.models.incumbent import Incumbent
+from fiveroute.models.unreduced import UNREDUCED
 from fiveroute.result import PROOF_TOLERANCE
 from fiveroute.routes import Plan, Route
 
@@ -129,6 +130,7 @@ def sail_best(
     clock: Clock,
     *,
     on_bound: Callable[[float], None] | None = None,
+    is_proof: bool = True,
 ) -> bool:
     """Offer the best plan over the pool; return whether nothing better is in it.
 
@@ -145,8 +147,12 @@ def sail_best(
         When to stop.
     on_bound
         Told bounds on the plans over the pool.
+    is_proof
+        Whether the answer shall be relied on, which takes longer.
     """
     choice = _Choice(pool, roads, incumbent, clock, on_bound)
+    for option, value in UNREDUCED.items() if is_proof else ():
+        choice.program.set(option, value)
     while True:
         before = incumbent.objective
         if roads.toll and incumbent.plan is not None:

@@ -259,4 +259,4 @@ class _Tree:
         """Look for a plan over the elementary routes that the master problem knows."""
         routes = here.routes_of_better_plans()
         clock = self.clock.rest().within(_PLAN_TIME).start()
-        sail_best(Pool.of(self.roads, routes), self.roads, self.incumbent, clock)
+        sail_best(Pool.of(self.roads, routes), self.roads, self.incumbent, clock, is_proof=False)
