@@ -19,13 +19,26 @@ import numpy as np
 
 from fiveroute.check import check
 from fiveroute.errors import InputError
-from fiveroute.heuristics.fleet.archipelago import ISLANDS, Archipelago, crew
+from fiveroute.heuristics.fleet.archipelago import Archipelago
+from fiveroute.heuristics.fleet.chains import build_chains
+from fiveroute.heuristics.fleet.crew import crew
+from fiveroute.heuristics.fleet.network import build_network, trails_in
+from fiveroute.heuristics.fleet.regions import Regions
 from fiveroute.heuristics.shortest_routes import shortest_routes
 from fiveroute.limits import Limits, Progress, ProgressCallback
 from fiveroute.problem import TeamOrienteering
 from fiveroute.routes import Plan
 
 __all__ = ["default_trials", "fleet_search"]
+
+PRICE = 0.1
+"""Price of a second, in data per second were all data collected in all the time."""
+
+REACH = 60
+"""Near nodes that are listed for every node."""
+
+MANY_NODES, MANY_AUVS = 600, 8
+"""Size from which the islands share one plan out."""
 
 ROUNDING = 1e-9
 """Share of what is enough that is put down to rounding."""
@@ -75,25 +88,38 @@ def fleet_search(
     limits = limits or Limits()
     clock = limits.start()
     start = _first_plan(problem, warm_start)
-    archipelago = Archipelago.around(start, problem, rng)
+    search = _search_around(start, problem, rng)
     trials = _trials(problem, limits, iterations)
-    done, best = 0, archipelago.objective
-    enough = min(enough, archipelago.most) * (1.0 - ROUNDING)
+    done, best = 0, search.objective
+    enough = min(enough, float(search.network.profit.sum())) * (1.0 - ROUNDING)
     with crew(workers) as for_each:
-        while done < trials and archipelago.objective < enough and not clock.expired:
+        while done < trials and search.objective < enough and not clock.expired:
             part = max(done / trials, clock.seconds / limits.time if limits.time > 0.0 else 1.0)
-            count = math.ceil(min(SLICE, (trials - done) / ISLANDS))
-            archipelago.run(count, part, for_each)
-            done += count * ISLANDS
-            if progress is not None and archipelago.objective > best:
-                progress(Progress(clock.seconds, archipelago.objective, message="fleet search"))
-            best = archipelago.objective
-    return _better_of(problem, archipelago.plan, start)
+            count = math.ceil(min(SLICE, (trials - done) / len(search.islands)))
+            search.run(count, part, for_each)
+            done += count * len(search.islands)
+            if progress is not None and search.objective > best:
+                progress(Progress(clock.seconds, search.objective, message="fleet search"))
+            best = search.objective
+    return _better_of(problem, search.plan, start)
 
 
 def default_trials(n: int) -> int:
-    """Trials without a time limit: about 1 s for 60 nodes, about 40 s for 5,000."""
-    return 80_000 + 300 * n
+    """Trials without a time limit: about 1 s for 60 nodes, 10 s for 600, 40 s for 5,000."""
+    return 80_000 + min(1_200 * n, 500_000 + 300 * n)
+
+
+def _search_around(
+    plan: Plan, problem: TeamOrienteering, rng: np.random.Generator
+) -> Archipelago | Regions:
+    """Islands around a plan: each with all of it, or where that is a lot, with a part."""
+    network = build_network(problem, REACH)
+    duration = build_chains(network, trails_in(network, plan)).time
+    network = network._replace(limit=np.maximum(network.limit, duration))  # at the very edge
+    price = PRICE * problem.total_profit / (float(problem.budgets.sum()) or 1.0)
+    is_large = len(network.nodes) >= MANY_NODES and problem.fleet_size >= MANY_AUVS
+    kind = Regions if is_large else Archipelago
+    return kind.around(plan, network, price, rng)
 
 
 def _first_plan(problem: TeamOrienteering, warm_start: Plan | None) -> Plan:

@@ -12,45 +12,22 @@ whatever their pace: the number of workers changes the time that it takes, not t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from fiveroute.heuristics.fleet.chains import build_chains
+from fiveroute.heuristics.fleet.crew import ForEach
 from fiveroute.heuristics.fleet.island import Island
-from fiveroute.heuristics.fleet.network import build_network
+from fiveroute.heuristics.fleet.network import Network, trails_in
 from fiveroute.heuristics.fleet.route_pool import Pool
+from fiveroute.heuristics.fleet.schedule import stage
 from fiveroute.heuristics.randomness import random_state
-from fiveroute.problem import TeamOrienteering
 from fiveroute.routes import Plan
 
-__all__ = ["ISLANDS", "Archipelago", "ForEach", "crew", "stage"]
+__all__ = ["Archipelago"]
 
 ISLANDS = 4
 """Number of islands."""
-
-ROUNDS = 5
-"""Number of times that the islands anneal."""
-
-FIRST = 0.4
-"""Share of the work that the first round takes; the others share the rest equally."""
-
-HOT, REHEATED, COLD = 1.0, 0.4, 0.1
-"""Temperatures at the start of the first and the other rounds, and at the end of each of
-them, in mean data of a node."""
-
-PRICE = 0.1
-"""Price of a second, in data per second were all data collected in all the time."""
-
-REACH = 60
-"""Near nodes that are listed for every node."""
-
-ForEach = Callable[[Callable[[Island], None], Iterable[Island]], None]
-"""Calls a function with every island, at the same time or one after the other."""
 
 
 @dataclass(slots=True)
@@ -72,20 +49,20 @@ class Archipelago:
     round: int = 0
 
     @classmethod
-    def around(cls, plan: Plan, problem: TeamOrienteering, rng: np.random.Generator) -> Archipelago:
-        """Islands that all start from a plan; nodes that no AUV has time for are left out."""
-        network = build_network(problem, REACH)
-        stop_of = {int(vertex): stop for stop, vertex in enumerate(network.nodes)}
-        trails = [
-            tuple(stop_of[vertex] for vertex in route if vertex in stop_of) for route in plan.routes
-        ]
-        duration = build_chains(network, trails).time
-        network = network._replace(limit=np.maximum(network.limit, duration))  # at the very edge
-        price = PRICE * problem.total_profit / (float(problem.budgets.sum()) or 1.0)
+    def around(
+        cls, plan: Plan, network: Network, price: float, rng: np.random.Generator
+    ) -> Archipelago:
+        """Islands that all start from a plan."""
+        trails = trails_in(network, plan)
         return cls(
             tuple(Island.settle(network, trails, price, random_state(rng)) for _ in range(ISLANDS)),
-            Pool(network, least=2 * ISLANDS * problem.fleet_size),
+            Pool(network, least=2 * ISLANDS * len(network.limit)),
         )
+
+    @property
+    def network(self) -> Network:
+        """The problem."""
+        return self.islands[0].network
 
     @property
     def leader(self) -> Island:
@@ -96,11 +73,6 @@ class Archipelago:
     def objective(self) -> float:
         """Data that the best routes collect."""
         return self.leader.objective
-
-    @property
-    def most(self) -> float:
-        """Data of all nodes that some AUV has time for."""
-        return float(self.leader.network.profit.sum())
 
     @property
     def plan(self) -> Plan:
@@ -130,38 +102,3 @@ class Archipelago:
             ),
             self.islands,
         )
-
-
-def stage(part: float) -> tuple[int, float, bool]:
-    """Round, temperature, and whether it is cold, after a share of all the work.
-
-    In a round the temperature falls geometrically; its second half is cold, where the
-    routes are worth remembering.
-    """
-    if part < FIRST:
-        number, within, hot = 0, part / FIRST, HOT
-    else:
-        later = (ROUNDS - 1) * (part - FIRST) / (1.0 - FIRST)
-        number = min(int(later), ROUNDS - 2)
-        within, hot = min(later - number, 1.0), REHEATED
-        number += 1
-    return number, hot * (COLD / hot) ** within, within > 0.5
-
-
-@contextmanager
-def crew(workers: int) -> Iterator[ForEach]:
-    """Some threads for the islands; kernels do not hold Python's lock."""
-
-    def in_turn(work: Callable[[Island], Any], islands: Iterable[Island]) -> None:
-        for island in islands:
-            work(island)
-
-    if workers == 1:
-        yield in_turn
-        return
-    with ThreadPoolExecutor(workers) as threads:
-
-        def at_once(work: Callable[[Island], Any], islands: Iterable[Island]) -> None:
-            list(threads.map(work, islands))
-
-        yield at_once

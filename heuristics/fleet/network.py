@@ -21,8 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.problem import TeamOrienteering
+from fiveroute.routes import Plan
 
-__all__ = ["Floats", "Ints", "Network", "Trail", "build_network"]
+__all__ = ["Floats", "Ints", "Network", "Trail", "build_network", "part_of", "trails_in"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -91,6 +92,31 @@ def build_network(problem: TeamOrienteering, reach: int) -> Network:
         limit=problem.allowed - _ROUNDING * np.maximum(1.0, problem.budgets),
         near=_nearest(leg, back, len(nodes), min(reach, len(nodes) - 1) + 2 * fleet_size),
     )
+
+
+def part_of(network: Network, nodes: Ints, auvs: Ints) -> Network:
+    """The network of some of its nodes and AUVs, with as many near nodes."""
+    size, fleet_size = len(network.nodes), len(network.limit)
+    stops = np.concatenate([nodes, size + auvs, size + fleet_size + auvs])
+    leg = network.leg[np.ix_(stops, stops)]
+    back = leg if network.back is network.leg else np.ascontiguousarray(leg.T)
+    reach = network.near.shape[1] - 2 * fleet_size
+    return Network(
+        nodes=network.nodes[nodes],
+        leg=leg,
+        back=back,
+        profit=network.profit[nodes],
+        limit=network.limit[auvs],
+        near=_nearest(leg, back, len(nodes), min(reach, len(nodes) - 1) + 2 * len(auvs)),
+    )
+
+
+def trails_in(network: Network, plan: Plan) -> list[Trail]:
+    """The routes of a plan; nodes that are not in the network are left out."""
+    stop_of = {vertex: stop for stop, vertex in enumerate(network.nodes.tolist())}
+    return [
+        tuple(stop_of[vertex] for vertex in route if vertex in stop_of) for route in plan.routes
+    ]
 
 
 def _side_by_side(problem: TeamOrienteering, nodes: Ints) -> Ints:

@@ -26,8 +26,11 @@ LONGEST_STRING = 10
 MEAN_REMOVED = 10.0
 """Mean number of nodes removed, as published."""
 
-LONG = 0.03
-"""Probability of one long string instead."""
+MEAN_IN_LONG = 1.0
+"""Mean number of nodes that long strings remove, over all trials."""
+
+SHORT_ROUTE = 30.0
+"""Mean number of nodes on a route below which long strings get no more frequent."""
 
 
 @kernel
@@ -45,7 +48,7 @@ def remove_strings(
     fleet_size = len(time)
     size = len(stops) - 2 * fleet_size
     mean_length = (size - idle[0]) / fleet_size
-    if uniform(state) < LONG:
+    if uniform(state) < MEAN_IN_LONG / max(SHORT_ROUTE, mean_length):
         node = seed
         if stops[node, ROUTE] < 0:
             node = stops[size + below(state, fleet_size), NEXT]
