@@ -117,10 +117,13 @@ def prepare(
         size = fleet_size or fleet_size_of(voyage.instance, voyage.travel, rng=rng)
     theatre = Theatre.of(voyage.instance, size, travel=voyage.travel)
     if actuation == "vehicle":
-        theatre = theatre.sailed_by(VehicleModel.of(voyage, folder), seed)
+        model = VehicleModel.of(voyage, folder or Path())
+        theatre = theatre.sailed_by(model, seed, limits=clock.rest())
     if routes is None:
+        # Who plans anew at once, and slowly, need not rehearse what it sets out with itself.
+        rehearsing = "of-one-mind" if planner == "re-optimising" else planner
         routes = departure_plan(
-            theatre.by_law, planner, reserve=reserve, seed=seed, limits=clock.rest()
+            theatre.by_law, rehearsing, reserve=reserve, seed=seed, limits=clock.rest()
         )
     return Pier(voyage, theatre, routes)
 

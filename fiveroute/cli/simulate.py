@@ -13,11 +13,9 @@ from fiveroute.cli import options
 
 if TYPE_CHECKING:
     from fiveroute.experiments.registry import Registry
-    from fiveroute.formats.plan_file import PlanFile
     from fiveroute.instance import Instance
     from fiveroute.limits import Limits, ProgressCallback
     from fiveroute.paths.voyage import Voyage
-    from fiveroute.routes import Plan
     from fiveroute.sea.simulation import SimulationResult
     from fiveroute.sea.theatre import Theatre
 
@@ -37,6 +35,7 @@ PLANNERS = (
     "re-optimising",
 )
 CHANNELS = ("unlimited", "fsk", "psk", "nanomodem", "bursty")
+_PREPARING = ("planner", "fleet_size", "reserve", "actuation", "straight_lines", "seed")
 
 
 @click.command("simulate")
@@ -110,7 +109,9 @@ def command(
     """Carry PLAN out in the uncertain ocean of INSTANCE; without PLAN, plan first."""
     from fiveroute.cli import answers
     from fiveroute.cli.running import run
+    from fiveroute.cli.sailing import name_unreachable
     from fiveroute.experiments.campaign import Campaign, sail_campaign
+    from fiveroute.fleet_runs import prepare
     from fiveroute.formats import read_instance
     from fiveroute.formats.plan_file import read_plan
     from fiveroute.limits import Limits
@@ -125,16 +126,24 @@ def command(
 
     def work(limits: Limits, progress: ProgressCallback | None) -> _Sailed:
         clock = limits.start()
-        voyage, theatre, routes = _prepared(mission, instance, filed, limits, choices, progress)
+        pier = prepare(
+            mission,
+            filed,
+            **{name: choices[name] for name in _PREPARING},
+            limits=limits,
+            progress=progress,
+            folder=instance.parent,
+        )
+        name_unreachable(pier.voyage)
         result = sail_campaign(
-            Campaign(theatre, routes, choices["runs"], _steering(config)),
+            Campaign(pier.theatre, pier.routes, choices["runs"], _steering(config)),
             workers=workers,
             scheduler=scheduler,
             journal=registry.journal if registry else None,
             limits=clock.rest(),
             progress=progress,
         )
-        return voyage, theatre, result
+        return pier.voyage, pier.theatre, result
 
     outcome = run(work, Limits(time_limit))
     voyage, _, result = outcome.value
@@ -215,49 +224,6 @@ def _registered(
     return Registry.begin(path, config, inputs, campaign.__name__, force=anew)
 
 
-def _prepared(
-    mission: Instance,
-    file: Path,
-    filed: PlanFile | None,
-    limits: Limits,
-    choices: dict[str, Any],
-    progress: ProgressCallback | None,
-) -> tuple[Voyage, Theatre, Plan]:
-    """The legs, the theatre, and the routes of the plan file or else those of a rehearsed plan."""
-    import numpy as np
-
-    from fiveroute.cli.sailing import sail
-    from fiveroute.sea.departure import departure_plan
-    from fiveroute.sea.sailed_luck import VehicleModel
-    from fiveroute.sea.theatre import Theatre
-    from fiveroute.tiers.preplanning import fleet_size_of
-
-    clock, seed = limits.start(), choices["seed"]
-    straight = choices["straight_lines"]
-    voyage = sail(mission, file, limits, straight_lines=straight, seed=seed, progress=progress)
-    routes = None if filed is None else _routes(filed, voyage)
-    if routes is not None:
-        size = len(routes.routes)
-    else:
-        rng = np.random.default_rng(seed)
-        size = choices["fleet_size"] or fleet_size_of(voyage.instance, voyage.travel, rng=rng)
-    theatre = Theatre.of(voyage.instance, size, travel=voyage.travel)
-    if choices["actuation"] == "vehicle":
-        model = VehicleModel.of(voyage, file.parent)
-        theatre = theatre.sailed_by(model, seed, limits=clock.rest())
-    if routes is None:
-        # Who plans anew at once, and slowly, need not rehearse what it sets out with itself.
-        planner = choices["planner"]
-        routes = departure_plan(
-            theatre.by_law,
-            "of-one-mind" if planner == "re-optimising" else planner,
-            reserve=choices["reserve"],
-            seed=seed,
-            limits=clock.rest(),
-        )
-    return voyage, theatre, routes
-
-
 def _steering(config: dict[str, Any]) -> dict[str, Any]:
     """The arguments of `simulate_fleet` among the options."""
     from fiveroute.sea.channel import PRESETS
@@ -265,11 +231,3 @@ def _steering(config: dict[str, Any]) -> dict[str, Any]:
     same = ("planner", "reserve", "loss", "failures", "seed", "gap", "log")
     steering = {name: config[name] for name in same}
     return steering | {"channel": PRESETS[config["channel"]]}
-
-
-def _routes(filed: PlanFile, voyage: Voyage) -> Plan:
-    """The routes of a plan file over the nodes that can be reached."""
-    from fiveroute.routes import Plan
-
-    vertex = {node.id: k for k, node in enumerate(voyage.instance.nodes, start=1)}
-    return Plan.of([vertex[name] for name in route if name in vertex] for route in filed.routes)
