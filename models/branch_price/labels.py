@@ -135,12 +135,8 @@ def extend_labels(
             done += 1
             if place[i, j] >= 0 and masks[label, 0] >> place[i, j] & 1:
                 continue
-            v = value[label] + gain[j] - toll * leg[i, j]
-            cuts = masks[label, 1] & recall[j]
-            paid = cuts & in_cut[j]
-            if paid:
-                v -= priced(paid, sigma)
-            cuts ^= in_cut[j]
+            cuts, paid = _with_cuts(masks[label, 1], in_cut[j], recall[j], sigma)
+            v = value[label] + gain[j] - toll * leg[i, j] - paid
             mask = 0
             if j != target:
                 mask = members_mask(masks[label, 0], members[i], place[j], j)
@@ -163,14 +159,28 @@ def extend_labels(
             new = state[COUNT]
             state[COUNT] += 1
             time[new], value[new], masks[new, 0], masks[new, 1] = t, v, mask, cuts
-            links[new, NODE], links[new, PARENT], links[new, KEPT] = j, label, 1
-            links[new, NEXT] = first[j, bucket]
-            first[j, bucket] = new
+            _enter(links, first, new, j, label, bucket)
             top[j, bucket] = max(top[j, bucket], v)
             if j != target:
                 links[new, PENDING] = waiting[bucket]
                 waiting[bucket] = new
     return DONE
+
+
+@kernel
+def _enter(links: Ints, first: Ints, new: int, node: int, parent: int, bucket: int) -> None:
+    """Put a label into its bucket."""
+    links[new, NODE], links[new, PARENT], links[new, KEPT] = node, parent, 1
+    links[new, NEXT] = first[node, bucket]
+    first[node, bucket] = new
+
+
+@kernel
+def _with_cuts(cuts: int, in_cut: int, recall: int, sigma: Floats) -> tuple[int, float]:
+    """State of the cuts after a visit, and what it pays for them."""
+    kept = cuts & recall
+    paid = kept & in_cut
+    return kept ^ in_cut, priced(paid, sigma) if paid else 0.0
 
 
 @kernel
