@@ -8,13 +8,34 @@ at its cheapest place.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from fiveroute.heuristics.fleet.network import Floats, Ints
+from fiveroute.heuristics.fleet.network import Floats, Ints, Network, Trail
 from fiveroute.heuristics.randomness import RandomState, uniform
 from fiveroute.kernels import kernel
 
-__all__ = ["fresh_route"]
+__all__ = ["fill_empty_routes", "fresh_route"]
+
+
+def fill_empty_routes(network: Network, trails: Sequence[Trail], state: RandomState) -> list[Trail]:
+    """The routes, with a fresh one for every AUV that visits nothing."""
+    size, fleet_size = len(network.nodes), len(network.limit)
+    filled = list(trails)
+    is_idle = np.ones(size, np.bool_)
+    for trail in trails:
+        is_idle[list(trail)] = False
+    for auv in range(fleet_size):
+        if not filled[auv]:
+            start, limit = size + auv, float(network.limit[auv])
+            idle = np.flatnonzero(is_idle)
+            route = fresh_route(
+                network.leg, network.profit, start, start + fleet_size, limit, idle, state
+            )
+            is_idle[route] = False
+            filled[auv] = tuple(route.tolist())
+    return filled
 
 
 @kernel

@@ -17,6 +17,7 @@ import numpy as np
 
 from fiveroute.heuristics.fleet.annealing import BEST_TIME
 from fiveroute.heuristics.fleet.crew import ForEach
+from fiveroute.heuristics.fleet.fresh_route import fill_empty_routes
 from fiveroute.heuristics.fleet.island import Island
 from fiveroute.heuristics.fleet.network import Ints, Network, Trail, part_of, trails_in
 from fiveroute.heuristics.fleet.schedule import COLD, HOT
@@ -73,9 +74,15 @@ class Regions:
     def around(
         cls, plan: Plan, network: Network, price: float, rng: np.random.Generator
     ) -> Regions:
-        """Regions of a plan."""
-        whole = Island.settle(network, trails_in(network, plan), price, random_state(rng))
-        regions = cls(network, price, rng, list(plan.routes), whole.worth)
+        """Regions of a plan; first every AUV that visits nothing gets a route.
+
+        From nothing at all annealing never gets to where all that is rich is far.
+        """
+        state = random_state(rng)
+        trails = fill_empty_routes(network, trails_in(network, plan), state)
+        whole = Island.settle(network, trails, price, state)
+        routes = [tuple(network.nodes[list(trail)].tolist()) for trail in trails]
+        regions = cls(network, price, rng, routes, whole.worth)
         regions._divide(regions.best, 1)
         return regions
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from fiveroute.heuristics.fleet.chains import duration
-from fiveroute.heuristics.fleet.fresh_route import fresh_route
+from fiveroute.heuristics.fleet.fresh_route import fill_empty_routes, fresh_route
 from fiveroute.heuristics.fleet.network import build_network
 from fiveroute.heuristics.randomness import random_state
 from fiveroute.problem import TeamOrienteering
@@ -32,3 +32,14 @@ def test_no_node_in_time_gives_an_empty_route() -> None:
     leg = np.array([[-np.inf, 9.0, 9.0], [9.0, -np.inf, 1.0], [9.0, 1.0, -np.inf]])
     state = random_state(np.random.default_rng(1))
     assert len(fresh_route(leg, np.ones(1), 1, 2, 5.0, np.arange(1), state)) == 0
+
+
+def test_empty_routes_are_filled_and_the_others_left_alone() -> None:
+    place = np.array([*range(9), 0.0])
+    travel = abs(place[:, None] - place[None, :])
+    network = build_network(TeamOrienteering(travel, 0 * place, np.sign(place), [8.0] * 3), 5)
+    mine = (0, 1)
+    filled = fill_empty_routes(network, [(), mine, ()], random_state(np.random.default_rng(1)))
+    assert filled[1] == mine
+    visited = [node for trail in filled for node in trail]
+    assert len(visited) == len(set(visited)) > 2
