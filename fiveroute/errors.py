@@ -54,10 +54,10 @@ class InputError(FiverouteError):
         if self.line is not None:
             where.append(f"line {self.line}")
         if self.field is not None:
-            where.append(self.field)
+            where.append(_cut(self.field, 200))
         shown = [] if self.value is None else [f"{_shorten(self.value)}:"]
         head = [f"{', '.join(where)}:"] if where else []
-        sentence = " ".join([*head, *shown, self.rule])
+        sentence = " ".join([*head, *shown, _cut(self.rule, 700)])
         return "".join(sign if sign.isprintable() else " " for sign in sentence)
 
 
@@ -65,6 +65,9 @@ class MissingExtraError(FiverouteError):
     """An optional package is needed; the message names the extra to install."""
 
 
-def _shorten(value: object, longest: int = 60) -> str:
-    text = repr(value)
+def _shorten(value: object) -> str:
+    return _cut(repr(value), 60)
+
+
+def _cut(text: str, longest: int) -> str:
     return text if len(text) <= longest else f"{text[: longest - 3]}..."

@@ -3,8 +3,10 @@
 Kernels are compiled once and kept on disk. numba notices when the file of a kernel changes,
 but not when a kernel or a constant that it takes from another file does; so the kernels of
 a module are kept in a folder named after the source of the module and of all it imports,
-and the folders of its former sources are cleared away. `on_compilation` tells a caller when
-something is compiled, so that the first run can say why it takes longer.
+and the folders of its former sources are cleared away. What is kept ends in its own digest: a
+kernel that a full disk or a power failure has spoilt is compiled anew, never run.
+`on_compilation` tells a caller when something is compiled, so that the first run can say why it
+takes longer.
 """
 
 from __future__ import annotations
@@ -14,13 +16,13 @@ import os
 import re
 import shutil
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import numba
-from numba.core import event
+from numba.core import caching, event
 
 __all__ = ["kernel", "on_compilation", "source_digest"]
 
@@ -30,11 +32,55 @@ _PACKAGE = Path(__file__).parent
 
 _CONFIG: Any = numba.config
 
+_SEAL = 32
+"""Bytes of a digest."""
+
 
 def kernel(function: F) -> F:
     """Compile to machine code on first use, without Python objects or the lock, kept on disk."""
-    with _cached_in(_cache_folder(function.__module__)):
-        return cast(F, numba.njit(cache=True, error_model="numpy", nogil=True)(function))
+    compiled: Any = numba.njit(error_model="numpy", nogil=True)(function)
+    with _cached_in(_cache_folder(function.__module__)), suppress(RuntimeError):
+        compiled._cache = _KernelCache(function)  # RuntimeError: there is no folder to keep it in
+    return cast(F, compiled)
+
+
+class _SealedFile(caching.IndexDataCacheFile):  # type: ignore[misc]
+    """Kept kernels, each with its digest at the end, which unpickling does not look at."""
+
+    def _dump(self, obj: Any) -> bytes:
+        content: bytes = super()._dump(obj)
+        return content + hashlib.sha256(content).digest()
+
+    def _load_data(self, name: str) -> Any:
+        content = Path(self._data_path(name)).read_bytes()
+        if hashlib.sha256(content[:-_SEAL]).digest() != content[-_SEAL:]:
+            raise ValueError(f"{name} is spoilt")
+        return super()._load_data(name)
+
+
+class _KernelCache(caching.FunctionCache):  # type: ignore[misc]
+    """numba's cache of a function, without which everything works as well, only slower."""
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        super().__init__(function)
+        held = self._cache_file
+        self._cache_file = _SealedFile(
+            self._cache_path, self._impl.filename_base, held._source_stamp
+        )
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """The compiled function, or None; a spoilt file is emptied."""
+        try:
+            return super().load_overload(sig, target_context)
+        except Exception:  # unpickling what is spoilt may end in anything
+            with suppress(OSError):
+                self.flush()
+            return None
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep a compiled function, if the disk lets us."""
+        with suppress(Exception):
+            super().save_overload(sig, data)
 
 
 @cache

@@ -42,6 +42,7 @@ TOLERANCE = 1e-9
 """Part of the bound by which a route may be worth more than claimed."""
 
 _FORMAT = "fiveroute root bound 1"
+_LARGEST = 1e200  # of the claims, so that their sums are finite
 _STEPS = 500
 _SAFE = 1.0 + 1e-11  # budgets grow by this factor: the order of a sum must not cost a route
 
@@ -140,8 +141,8 @@ def _numbers(document: Mapping[str, Any], field: str, count: int) -> list[float]
     values = document.get(field)
     if not isinstance(values, list) or len(values) != count:
         raise InputError(f"must be a list of {count} numbers", field=field, value=values)
-    if not all(isinstance(v, int | float) and math.isfinite(v) for v in values):
-        raise InputError("must all be finite numbers", field=field, value=values)
+    if not all(type(v) in (int, float) and -_LARGEST <= v <= _LARGEST for v in values):
+        raise InputError(f"must all be numbers up to {_LARGEST:g}", field=field, value=values)
     return [float(value) for value in values]
 
 

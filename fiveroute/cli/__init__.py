@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import io
+import os
 import sys
+from contextlib import suppress
 from importlib import import_module
 
 import click
@@ -61,8 +64,18 @@ def main(arguments: list[str] | None = None) -> None:
     0 done; 1 done and the answer is no; 2 wrong input or call, with one line on standard
     error; 3 stopped by a limit with nothing found; 130 interrupted.
     """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # an id may hold what a terminal cannot show
+            stream.reconfigure(errors="backslashreplace")
     try:
         code = _fiveroute.main(arguments, prog_name="fiveroute", standalone_mode=False)
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except OSError as error:
+        _hush()
+        code = _complain(f"{error.strerror or error}; check the disk and the terminal", 2)
+    except MemoryError:
+        code = _complain("the memory is too small for this; make the mission smaller", 2)
     except FiverouteError as error:
         code = _complain(str(error), 2)
     except click.exceptions.NoArgsIsHelpError as error:
@@ -73,6 +86,12 @@ def main(arguments: list[str] | None = None) -> None:
     except (KeyboardInterrupt, click.Abort):
         code = _complain("interrupted", INTERRUPTED)
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _hush() -> None:
+    """Send what standard output still holds nowhere: it cannot be written."""
+    with suppress(OSError, ValueError, AttributeError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _complain(sentence: str, code: int) -> int:

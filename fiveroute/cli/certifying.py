@@ -8,6 +8,7 @@ from typing import Any
 
 from fiveroute.errors import InputError
 from fiveroute.formats.files import read_text, write_text_atomically
+from fiveroute.formats.json_document import parsed
 from fiveroute.formats.native import instance_hash
 from fiveroute.instance import Instance
 from fiveroute.limits import Limits
@@ -70,7 +71,7 @@ def confirm_certificate(
             value=str(document.get("instance_hash"))[:12],
         )
     size = document.get("fleet_size")
-    if not isinstance(size, int) or size < 1:
+    if type(size) is not int or size < 1:
         raise InputError("must be a number of AUVs", file=path, field="fleet_size", value=size)
     straight = bool(document.get("straight_lines", True))
     voyage = sail(mission, file, limits, straight_lines=straight)
@@ -90,9 +91,9 @@ def confirm_certificate(
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        document = json.loads(read_text(path))
-    except ValueError as error:
-        raise InputError(f"is no JSON ({error})", file=path) from None
+        document = parsed(read_text(path))
+    except InputError as error:
+        raise error.at(path) from None
     if not isinstance(document, dict):
         raise InputError("must be a JSON object", file=path)
     return document

@@ -106,14 +106,18 @@ def _charted(file: Path, chart: str | None, zones: Path | None, terms: dict[str,
     """The mission that a chart of nodes becomes."""
     from fiveroute.errors import InputError
     from fiveroute.formats import Terms, read_survey
+    from fiveroute.formats.files import title_of
+    from fiveroute.formats.native import require_name
 
     currents: Path | None = terms.pop("currents")
     if currents is not None and not currents.is_file():
         raise InputError("does not exist; check the name", file=currents, field="--currents")
+    if currents is not None:
+        require_name(str(currents))
     survey = read_survey(file, chart)
     closed = None if zones is None else read_survey(zones)
     whole = Terms(**terms, currents=None if currents is None else str(currents))
     try:
-        return survey.instance(file.stem, whole, closed)
+        return survey.instance(title_of(file), whole, closed)
     except InputError as error:
         raise error.at(file) from None

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from fiveroute.errors import InputError
-from fiveroute.formats.files import require_writable
+from fiveroute.formats.files import make_folder, require_writable
 
 __all__ = ["require_folder", "require_output"]
 
@@ -21,9 +20,6 @@ def require_folder(folder: Path | None, names: Iterable[str], force: bool) -> No
     """Make a folder for several outputs, and refuse those that could not be written."""
     if folder is None:
         return
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"cannot be a folder ({error.strerror})", file=folder) from None
+    make_folder(folder)
     for name in names:
         require_writable(folder / name, force)

@@ -178,8 +178,9 @@ def _rows_kept(entries: Sequence[Entry], keys: Sequence[str], kept: KeptRows) ->
     rows = {}
     for number, (entry, key) in enumerate(zip(entries, keys, strict=True)):
         document = kept.get(entry.instance.name, key)
-        if document is not None:
-            rows[number] = GapRow.of_document(document)
+        row = None if document is None else GapRow.of_document(document)
+        if row is not None:
+            rows[number] = row
     return rows
 
 

@@ -7,11 +7,14 @@ after the other on one core, and all plans are judged alike.
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from functools import cache
 from typing import Any, Literal
+
+from pydantic import TypeAdapter, ValidationError
 
 from fiveroute.exact import solve_from_good_plan
 from fiveroute.generate import scenario
@@ -124,10 +127,12 @@ class GapRow:
     peers: Mapping[str, PeerAnswer] = field(default_factory=dict)
 
     @classmethod
-    def of_document(cls, document: Mapping[str, Any]) -> GapRow:
-        """The row that `as_document` made a document of."""
-        peers = {name: PeerAnswer(**answer) for name, answer in document["peers"].items()}
-        return cls(**{**document, "peers": peers})
+    def of_document(cls, document: Mapping[str, Any]) -> GapRow | None:
+        """The row that `as_document` made a document of; None for any other document."""
+        try:
+            return TypeAdapter(cls).validate_json(json.dumps(document), strict=True)
+        except ValidationError:
+            return None
 
     def as_document(self) -> dict[str, Any]:
         """What JSON can hold."""

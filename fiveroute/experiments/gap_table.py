@@ -7,6 +7,7 @@ one that the judge rejects, has collected nothing: a shortfall of 1.
 from __future__ import annotations
 
 import csv
+import io
 import statistics
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -15,6 +16,7 @@ from typing import Any
 
 from fiveroute.errors import InputError
 from fiveroute.experiments.gap_row import GapRow
+from fiveroute.formats.files import number, read_text
 from fiveroute.result import Status
 
 __all__ = [
@@ -181,25 +183,19 @@ def read_reference(path: Path) -> dict[str, float]:
     InputError
         If the file cannot be read, a column is missing, or a value is not a number.
     """
-    try:
-        lines = path.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"cannot be read ({error}); check the path", file=path) from None
-    reader = csv.DictReader(lines)
-    if not {"instance", "best_known"} <= set(reader.fieldnames or ()):
-        raise InputError(
-            "needs the columns instance and best_known", value=reader.fieldnames, file=path, line=1
-        )
+    reader = csv.DictReader(io.StringIO(read_text(path), newline=""))
     values = {}
-    for row in reader:
-        try:
-            values[row["instance"]] = float(row["best_known"])
-        except (TypeError, ValueError):
+    try:
+        if not {"instance", "best_known"} <= set(reader.fieldnames or ()):
             raise InputError(
-                "must be a number",
-                field="best_known",
-                value=row["best_known"],
-                file=path,
-                line=reader.line_num,
-            ) from None
+                "needs the columns instance and best_known; name them in the first line", line=1
+            )
+        for row in reader:
+            known = row["best_known"] or ""
+            values[row["instance"]] = number(known, "best_known", reader.line_num)
+    except csv.Error as error:
+        told = f"is no table: {error}; correct the line"
+        raise InputError(told, file=path, line=reader.line_num) from None
+    except InputError as error:
+        raise error.at(path) from None
     return values

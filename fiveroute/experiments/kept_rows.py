@@ -15,7 +15,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fiveroute.formats.files import write_text_atomically
+from fiveroute.errors import InputError
+from fiveroute.formats.files import make_folder, read_text, write_text_atomically
 
 __all__ = ["KeptRows", "key_of"]
 
@@ -47,8 +48,8 @@ class KeptRows:
     def get(self, label: str, key: str) -> dict[str, Any] | None:
         """The row of that key, if the folder has it whole."""
         try:
-            document = json.loads(self._file(label, key).read_text(encoding="utf-8"))
-        except (OSError, ValueError):
+            document = json.loads(read_text(self._file(label, key)))
+        except (InputError, ValueError, RecursionError):
             return None
         return document if isinstance(document, dict) else None
 
@@ -64,7 +65,7 @@ class KeptRows:
         row
             What JSON can hold.
         """
-        self.folder.mkdir(parents=True, exist_ok=True)
+        make_folder(self.folder)
         text = json.dumps(row, allow_nan=False)
         write_text_atomically(self._file(label, key), text + "\n", force=True)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from fiveroute.errors import InputError
-from fiveroute.formats.files import write_text_atomically, written_whole
+from fiveroute.formats.files import require_writable, write_text_atomically, written_whole
 from fiveroute.instance import Instance
 from fiveroute.sea.simulation import SimulationResult
 
@@ -85,6 +85,7 @@ def write_rows(rows: Sequence[Mapping[str, Any]], path: Path, force: bool = Fals
     elif path.suffix == ".md":
         write_text_atomically(path, _markdown(rows), force)
     else:
+        require_writable(path, force)
         _write_parquet(rows, path)
 
 
@@ -108,7 +109,8 @@ def _write_parquet(rows: Sequence[Mapping[str, Any]], path: Path) -> None:
     import pyarrow.parquet
 
     try:
-        with written_whole(path) as draft:
+        with written_whole(path.resolve()) as draft:
             pyarrow.parquet.write_table(pyarrow.Table.from_pylist(list(rows)), draft)
     except OSError as error:
-        raise InputError(f"cannot be written ({error.strerror})", file=path) from None
+        told = f"cannot be written ({error.strerror or error}); check the name and the disk"
+        raise InputError(told, file=path) from None

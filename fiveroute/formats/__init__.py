@@ -24,7 +24,12 @@ from fiveroute.formats import (
     oplib,
     tsplib,
 )
-from fiveroute.formats.files import read_text, require_writable, write_text_atomically
+from fiveroute.formats.files import (
+    read_text,
+    require_writable,
+    title_of,
+    write_text_atomically,
+)
 from fiveroute.formats.json_document import nearest
 from fiveroute.formats.native import currents_file, instance_hash, relocated
 from fiveroute.formats.plan_file import PlanFile, read_plan, write_plan
@@ -151,7 +156,7 @@ def read_instance(path: Path, format_name: str | None = None) -> Instance:
         chosen = (
             _detected(text, path.suffix.lower()) if format_name is None else _named(format_name)
         )
-        return chosen.read(text, path.stem)
+        return chosen.read(text, title_of(path))
     except InputError as error:
         raise error.at(path) from None
 

@@ -21,12 +21,14 @@ from fiveroute.errors import InputError
 __all__ = [
     "MAX_BYTES",
     "integer",
+    "make_folder",
     "non_negative",
     "number",
     "numbered_lines",
     "positive",
     "read_text",
     "require_writable",
+    "title_of",
     "write_text_atomically",
     "written_whole",
 ]
@@ -70,6 +72,11 @@ def read_text(path: Path) -> str:
     if not text.strip():
         raise InputError("is empty; name a file that holds something", file=path)
     return text
+
+
+def title_of(path: Path) -> str:
+    """Name of a file without its ending; bytes of it that are no UTF-8 become question marks."""
+    return path.stem.encode("utf-8", "replace").decode()
 
 
 def numbered_lines(text: str) -> Iterator[tuple[int, str]]:
@@ -148,6 +155,21 @@ def require_writable(path: Path, force: bool = False) -> None:
         raise InputError(_reason(error), file=path) from None
 
 
+def make_folder(folder: Path) -> None:
+    """Make a folder and those above it, where they are missing.
+
+    Raises
+    ------
+    InputError
+        If the system does not let us.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as error:
+        told = error.strerror if isinstance(error, OSError) else str(error)
+        raise InputError(f"cannot be a folder ({told}); name another", file=folder) from None
+
+
 def write_text_atomically(path: Path, text: str, force: bool = False) -> None:
     """Write a file whole or not at all.
 
@@ -171,7 +193,7 @@ def write_text_atomically(path: Path, text: str, force: bool = False) -> None:
             path.write_text(text, encoding="utf-8", newline="\n")
         else:
             with written_whole(path.resolve()) as draft:
-                _write_through(draft, text)
+                draft.write_text(text, encoding="utf-8", newline="\n")
     except (OSError, ValueError) as error:
         raise InputError(_reason(error, "written"), file=path) from None
 
@@ -182,18 +204,13 @@ def written_whole(path: Path) -> Iterator[Path]:
     draft = path.with_name(f".{path.stem[:80]}.{secrets.token_hex(6)}{path.suffix[:20]}")
     try:
         yield draft
+        with draft.open("rb") as stream:
+            os.fsync(stream.fileno())  # the name must not be on the disk before the content is
         if path.exists():
             draft.chmod(path.stat().st_mode)
         draft.replace(path)
     finally:
         draft.unlink(missing_ok=True)
-
-
-def _write_through(path: Path, text: str) -> None:
-    with path.open("x", encoding="utf-8", newline="\n") as stream:
-        stream.write(text)
-        stream.flush()
-        os.fsync(stream.fileno())
 
 
 def _reason(error: Exception, done: str = "read") -> str:

@@ -19,6 +19,7 @@ from typing import Any
 
 from fiveroute.errors import InputError
 from fiveroute.formats.chart_fields import area_kind, fields_of, ring, site_of
+from fiveroute.formats.json_document import parsed
 from fiveroute.formats.survey import Area, Site, Survey, require_on_earth
 
 __all__ = ["read"]
@@ -44,14 +45,7 @@ def read(text: str) -> Survey:
 
 
 def _features(text: str) -> list[Any]:
-    try:
-        document = json.loads(text)
-    except json.JSONDecodeError as error:
-        raise InputError(f"is no JSON: {error.msg}; correct the line", line=error.lineno) from None
-    except (ValueError, RecursionError):
-        raise InputError(
-            "is no JSON that can be read; it holds absurd numbers or nesting"
-        ) from None
+    document = parsed(text)
     kind = document.get("type") if isinstance(document, dict) else None
     if kind == "Feature":
         return [document]

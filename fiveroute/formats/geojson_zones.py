@@ -25,6 +25,7 @@ from itertools import pairwise
 from typing import Any
 
 from fiveroute.errors import InputError
+from fiveroute.formats.json_document import parsed
 from fiveroute.instance import Circle, Ocean, Polygon
 
 __all__ = ["read", "write"]
@@ -75,14 +76,7 @@ def write(ocean: Ocean) -> str:
 
 def _features(text: str) -> list[dict[str, Any]]:
     """The features of a document, each a JSON object that says so."""
-    try:
-        document = json.loads(text)
-    except json.JSONDecodeError as error:
-        raise InputError(f"is no JSON: {error.msg}; correct the line", line=error.lineno) from None
-    except (ValueError, RecursionError):
-        raise InputError(
-            "is no JSON that can be read; it holds absurd numbers or nesting"
-        ) from None
+    document = parsed(text)
     if not isinstance(document, dict) or document.get("type") != "FeatureCollection":
         raise InputError('must be GeoJSON that says "type": "FeatureCollection"')
     if document.get("crs") is not None:

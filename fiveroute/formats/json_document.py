@@ -19,7 +19,7 @@ from pydantic_core import ErrorDetails
 
 from fiveroute.errors import InputError
 
-__all__ = ["layout", "nearest", "read_document", "translated"]
+__all__ = ["layout", "nearest", "parsed", "read_document", "translated"]
 
 T = TypeVar("T")
 Location = list[str | int]
@@ -44,15 +44,26 @@ def read_document(text: str, model: type[T], tag: str) -> T:
     InputError
         If the text is no JSON, has another tag, or breaks a rule of the model.
     """
-    try:
-        document = pydantic_core.from_json(text)
-    except ValueError as error:
-        raise _syntax_error(str(error)) from None
+    document = parsed(text)
     _require_tag(document, tag)
     try:
         return TypeAdapter(model).validate_json(text)
     except ValidationError as error:
         raise translated(error, document, model) from None
+
+
+def parsed(text: str) -> Any:
+    """What a JSON text holds: objects as dictionaries, of equal keys the last one.
+
+    Raises
+    ------
+    InputError
+        If the text is no JSON, is nested more than 200 deep, or holds half a character.
+    """
+    try:
+        return pydantic_core.from_json(text)
+    except ValueError as error:
+        raise _syntax_error(str(error)) from None
 
 
 def layout(value: Any, indent: str = "") -> str:
@@ -139,7 +150,7 @@ def _location(fault: ErrorDetails, document: object) -> Location:
     last = fault["loc"][-1:]
     for part in fault["loc"]:
         is_key = isinstance(here, dict) and part in here
-        if is_key or (isinstance(here, list) and isinstance(part, int)):
+        if is_key or (isinstance(here, list) and isinstance(part, int) and part < len(here)):
             here = here[part]
         elif not (fault["type"] == "missing" and (part,) == last):
             continue

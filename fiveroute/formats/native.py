@@ -19,6 +19,7 @@ from typing import Any, Literal
 from pydantic import ConfigDict
 from pydantic.dataclasses import dataclass
 
+from fiveroute.errors import InputError
 from fiveroute.formats.json_document import layout, read_document
 from fiveroute.instance import TURNING_RADIUS, Instance
 
@@ -30,6 +31,7 @@ __all__ = [
     "instance_hash",
     "read",
     "relocated",
+    "require_name",
     "write",
 ]
 
@@ -117,6 +119,14 @@ def currents_file(instance: Instance, path: Path) -> Path | None:
     return None if name is None else path.parent / name
 
 
+def require_name(name: str) -> None:
+    """Refuse the name of a file of currents that no text file can hold."""
+    if any("\ud800" <= sign <= "\udfff" for sign in name):
+        raise InputError(
+            "is no UTF-8 text, so that no instance can name it; rename file or folder", value=name
+        )
+
+
 def relocated(instance: Instance, source: Path, target: Path) -> Instance:
     """The instance of file `source`, to be written to file `target`.
 
@@ -126,5 +136,6 @@ def relocated(instance: Instance, source: Path, target: Path) -> Instance:
     if file is None or Path(str(instance.ocean.currents.file)).is_absolute():
         return instance
     name = PurePath(os.path.relpath(file, target.parent)).as_posix()
+    require_name(name)
     currents = replace(instance.ocean.currents, file=name)
     return replace(instance, ocean=replace(instance.ocean, currents=currents))

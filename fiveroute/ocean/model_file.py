@@ -29,6 +29,7 @@ Times = NDArray[np.datetime64]
 
 _ENGINES = {b"\x89HDF": "h5netcdf", b"CDF\x01": "scipy", b"CDF\x02": "scipy"}
 _MISSING = 1e10  # what is larger is a fill value, declared or not (1e37, 1.2676506e30, ...)
+_TOO_MANY = 200_000_000  # numbers, 1.6 GB of them; a few bytes can claim any number of zeros
 _ROUNDING = 1e-7  # relative, between a fill value and the same stored in single precision
 _CALENDARS = ("standard", "gregorian", "proleptic_gregorian")
 
@@ -46,11 +47,26 @@ def open_model_file(path: Path | str) -> Iterator[xr.Dataset]:
 
     engine = _engine(Path(path))
     try:
+        if engine == "h5netcdf":
+            _require_hdf5(path)
         data = xr.open_dataset(path, engine=engine, decode_cf=False)
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise InputError(f"cannot be read as netCDF ({error})", file=path) from error
+    except Exception as error:  # the libraries trust what they read: a spoilt file ends in anything
+        raise _unreadable(error, path) from error
     with data:
         yield data
+
+
+def _require_hdf5(path: Path | str) -> None:
+    """Look at a file as h5netcdf will: its own failure is heard twice, on standard error too."""
+    import h5py
+
+    with h5py.File(path, "r") as held:
+        held.attrs.get("_nc3_strict")
+
+
+def _unreadable(error: Exception, path: Path | str) -> InputError:
+    told = " ".join(str(error).split())[:200] or type(error).__name__
+    return InputError(f"cannot be read as netCDF ({told}); copy the file again", file=path)
 
 
 def _engine(path: Path) -> str:
@@ -77,9 +93,15 @@ def decoded(variable: xr.DataArray) -> Floats:
     """
     if variable.dtype.kind not in "iuf":
         raise InputError("does not hold numbers", field=str(variable.name))
+    if variable.size > _TOO_MANY:
+        raise InputError(
+            f"has more than {_TOO_MANY:.0e} numbers to read; cut a part out of the file",
+            field=str(variable.name),
+            value=variable.shape,
+        )
     try:
         values = np.array(variable.values, dtype=np.float64)
-    except (OSError, RuntimeError) as error:
+    except (OSError, RuntimeError, ValueError, MemoryError) as error:
         raise InputError(f"is damaged ({error})", field=str(variable.name)) from error
     missing = ~(np.abs(values) < _MISSING)
     for attribute in ("_FillValue", "missing_value"):

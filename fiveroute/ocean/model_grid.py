@@ -190,6 +190,8 @@ def _on(land: Booleans, row: Floats, column: Floats) -> Booleans:
 def _fineness(cells: CellGrid) -> float:
     """Points of the map's grid in the spacing of the cells: as many as are cheap."""
     area = float(np.prod([np.nanmax(part) - np.nanmin(part) for part in (cells.x, cells.y)]))
+    if not (cells.spacing > 0.0 and area > 0.0):
+        raise InputError("has cells in one place or on one line; copy the file again", field="grid")
     coarse = len(cells.w) * area / cells.spacing**2
     if coarse * _FINER[0] ** 2 > _TOO_MANY:
         raise InputError(

@@ -2,8 +2,9 @@
 
 A table is kept under a key of everything that it depends on: the current's grid, the barriers,
 the vehicle, the stops, the seed, and the source of the planners. The folder is the user's cache
-folder, or the one that FIVEROUTE_CACHE names; nothing in it is needed, and a file that cannot be
-read is planned anew. The least used tables go when there are too many.
+folder, or the one that FIVEROUTE_CACHE names; nothing in it is needed. A file that cannot be
+read, says another key or holds what is no table is not believed, and planned anew. The least used
+tables go when there are too many.
 """
 
 from __future__ import annotations
@@ -11,8 +12,10 @@ from __future__ import annotations
 import hashlib
 import os
 import zipfile
+import zlib
 from contextlib import suppress
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,8 +29,14 @@ __all__ = ["cache_folder", "keep_table", "kept_table", "table_key"]
 _MOST = 50
 """Tables that are kept."""
 
-_SPOILT = (OSError, EOFError, ValueError, KeyError, zipfile.BadZipFile)
+_SPOILT = (
+    *(OSError, EOFError, ValueError, KeyError, TypeError, SyntaxError),
+    *(zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, MemoryError),
+)
 """What reading a file that is none may end in."""
+
+_LARGEST = 2**30
+"""Bytes of a part of a table at most: 10,000 stops have 800 MB of times."""
 
 
 def cache_folder() -> Path:
@@ -62,21 +71,54 @@ def table_key(waters: Waters, points: NDArray[np.float64], source: str, seed: in
 def kept_table(key: str) -> LegTable | None:
     """The table of a key, if it is kept."""
     file = cache_folder() / f"{key}.npz"
-    with suppress(*_SPOILT), file.open("rb") as stream, np.load(stream) as kept:
+    table = None
+    with suppress(*_SPOILT), file.open("rb") as stream, zipfile.ZipFile(stream) as archive:
+        if max(part.file_size for part in archive.infolist()) <= _LARGEST:
+            table = _read(stream, key)
+    if table is not None:
+        with suppress(OSError):
+            file.touch()
+    return table
+
+
+def _read(stream: BinaryIO, key: str) -> LegTable | None:
+    """The table in a file, if it is the one of that key, and is one at all."""
+    stream.seek(0)
+    with np.load(stream, allow_pickle=False) as kept:
         table = LegTable(kept["times"], kept["first"], kept["legs"], kept["tracks"])
-        file.touch()
-        return table
-    return None
+        return table if str(kept["key"]) == key and _is_sound(table) else None
+
+
+def _is_sound(table: LegTable) -> bool:
+    """Whether shapes, types and numbers are those of a table."""
+    times, first, legs, tracks = table.times, table.first, table.legs, table.tracks
+    size, count = len(times), len(legs)
+    kinds = (times.dtype, first.dtype, legs.dtype, tracks.dtype)
+    if kinds != (np.float64, np.int64, np.int64, np.float64):
+        return False
+    if (times.shape, first.shape, legs.shape) != ((size, size), (count + 1,), (count, 2)):
+        return False
+    return bool(
+        tracks.shape == (len(tracks), 2)
+        and np.isfinite(tracks).all()
+        and (times >= 0.0).all()
+        and ((legs >= 0) & (legs < size)).all()
+        and (first[0], first[-1]) == (0, len(tracks))
+        and (np.diff(first) >= 1).all()
+    )
 
 
 def keep_table(key: str, table: LegTable) -> None:
     """Keep a table; a folder that cannot be written keeps none."""
     folder = cache_folder()
+    if folder.parts[0] == "~":  # nobody knows the home of this user
+        return
     with suppress(OSError):
         folder.mkdir(parents=True, exist_ok=True)
         with written_whole(folder / f"{key}.npz") as draft:
             np.savez_compressed(
                 draft,
+                key=np.array(key),
                 times=table.times,
                 first=table.first,
                 legs=table.legs,

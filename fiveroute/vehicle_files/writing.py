@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import ctypes
 import io
 import os
 import secrets
 import shutil
+import sys
 import zipfile
 from collections.abc import Collection
 from pathlib import Path
@@ -15,6 +17,7 @@ from fiveroute.formats.files import require_writable, written_whole
 
 __all__ = ["write_archive", "write_folder"]
 
+_HERE, _EXCHANGE = -100, 2  # AT_FDCWD and RENAME_EXCHANGE of Linux
 _EPOCH = (1980, 1, 1, 0, 0, 0)  # the same archive for the same plan
 
 
@@ -86,14 +89,24 @@ def _require_replaceable(folder: Path, suffixes: Collection[str], force: bool) -
 
 
 def _take_place(draft: Path, folder: Path) -> None:
-    """Put a folder in another one's place."""
+    """Put a folder in another one's place, in one step where the system knows such a step."""
     if not folder.exists():
         draft.rename(folder)
         return
-    old = draft.with_name(f"{draft.name}.old")
-    folder.rename(old)
-    draft.rename(folder)
+    old = draft
+    if not _exchanged(draft, folder):
+        old = draft.with_name(f"{draft.name}.old")
+        folder.rename(old)
+        draft.rename(folder)
     shutil.rmtree(old, ignore_errors=True)
+
+
+def _exchanged(one: Path, other: Path) -> bool:
+    """Exchange two names at once, which Linux has known since 3.15, but Python does not."""
+    rename = getattr(ctypes.CDLL(None), "renameat2", None) if sys.platform == "linux" else None
+    if rename is None:
+        return False
+    return bool(rename(_HERE, os.fsencode(one), _HERE, os.fsencode(other), _EXCHANGE) == 0)
 
 
 def _unwritable(path: Path, error: OSError) -> InputError:

@@ -114,7 +114,7 @@ def test_a_reference_needs_its_columns_and_numbers(tmp_path: Path) -> None:
     file.write_text("instance,best_known\na,12\n")
     assert read_reference(file) == {"a": 12.0}
     file.write_text("instance,best_known\na,many\n")
-    with pytest.raises(InputError, match=r"line 2, best_known: 'many': must be a number"):
+    with pytest.raises(InputError, match=r"line 2, best_known: 'many': must be a finite number"):
         read_reference(file)
     file.write_text("name,value\na,12\n")
     with pytest.raises(InputError, match="needs the columns instance and best_known"):

@@ -135,10 +135,10 @@ def test_a_wrong_feature_is_named(wrong: Any, sentence: str) -> None:
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ('{"type":\n oops}', "line 2: is no JSON: Expecting value; correct the line"),
-        ("", "line 1: is no JSON"),
-        ("[" * 1_000_000, "is no JSON that can be read"),
-        ('{"type": ' + "1" * 5000 + "}", "is no JSON that can be read"),
+        ('{"type":\n oops}', "line 2: is no JSON: expected value"),
+        ("", "line 1: the JSON text ends too early"),
+        ("[" * 1_000_000, "line 1: the JSON text is nested too deeply"),
+        ('{"type": ' + "1" * 5000 + "}", "line 1: is no JSON: number out of range"),
         ("[]", 'must be GeoJSON that says "type": "FeatureCollection"'),
         (json.dumps(feature()), 'must be GeoJSON that says "type": "FeatureCollection"'),
         ('{"type": "FeatureCollection"}', "features: must be a list of features"),

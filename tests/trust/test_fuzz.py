@@ -1,0 +1,98 @@
+"""Damaged files of every kind: read, or refused in one line. `benchmarks/fuzz.py` does it longer."""
+
+import importlib.util
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+_SOURCE = Path(__file__).parents[2] / "benchmarks" / "fuzz.py"
+if not _SOURCE.is_file():
+    pytest.skip("the long run is not shipped here", allow_module_level=True)
+_SPEC = importlib.util.spec_from_file_location("fiveroute_fuzz", _SOURCE)
+assert _SPEC is not None
+assert _SPEC.loader is not None
+fuzz: Any = importlib.util.module_from_spec(_SPEC)
+sys.modules[_SPEC.name] = fuzz
+_SPEC.loader.exec_module(fuzz)
+
+INPUTS = {"netcdf": 60, "certificate": 60, "kept": 100}
+
+FOUND = [
+    # what the long run found, and no reader may do again
+    ("native", b'{"format": "fiveroute-instance/1", "name": "a", "nodes": [{"id": "a"' + b"}]}"),
+    ("native", b'{"format": "fiveroute-instance/1", "' + b"x" * 3000 + b'": 1}'),
+    ("native", b'{"format": "fiveroute-instance/1", "nodes": [], "nodes": [{}, {}, {"id": 1}]}'),
+    ("native", b'{"format": "fiveroute-instance/1", "nodes": [{}, {}, {"id": 1}], "nodes": []}'),
+    ("events", b'{"' + b"k" * 3000 + b'": 1}'),
+    (
+        "geojson",
+        b'{"type": "Feature", "properties": {"id": "\\ud800"}, '
+        b'"geometry": {"type": "Point", "coordinates": [10, 63]}}',
+    ),
+    ("certificate", b"[" * 100_000),
+    ("certificate", b'{"a": ' + b"9" * 5000 + b"}"),
+    ("certificate", b'{"format": "\\ud800"}'),
+    ("kept", b"[" * 100_000),
+    ("kept", b'{"peers": {"vroom": 1}}'),
+    ("kept", b'{"instance": "\\ud800"}'),
+    ("reference", b"instance,best_known\na," + b"1" * 200_000),
+    ("reference", b'instance,best_known\na,"1\rb'),
+    ("reference", b"instance,best_known\n\0"),
+    ("reference", b"\xef\xbb\xbfinstance,best_known\na,nan"),
+    ("netcdf", b"CDF\x01" + b"\xff" * 200),
+    ("netcdf", b"\x89HDF\r\n\x1a\n" + b"\0" * 500),
+]
+
+
+def must_be_read_or_refused(name: str, content: bytes, folder: Path) -> None:
+    kind = fuzz.reader(name)
+    path = folder / f"file{kind.suffix}"
+    path.write_bytes(content)
+    assert fuzz.fault_of(kind, path) is None, content
+
+
+@pytest.mark.parametrize("name", fuzz.READERS)
+def test_whole_files_are_read(name: str, tmp_path: Path) -> None:
+    kind = fuzz.reader(name)
+    for content in kind.files:
+        path = tmp_path / f"file{kind.suffix}"
+        path.write_bytes(content)
+        kind.read(path)
+
+
+@pytest.mark.parametrize("name", fuzz.READERS)
+def test_damaged_files_are_read_or_refused(name: str, tmp_path: Path) -> None:
+    kind = fuzz.reader(name)
+
+    @given(st.sampled_from(kind.files), st.randoms(use_true_random=False))
+    @settings(
+        deadline=None,
+        max_examples=INPUTS.get(name, 200),
+        suppress_health_check=list(HealthCheck),
+        database=None,
+    )
+    def read(content: bytes, rng: Any) -> None:
+        must_be_read_or_refused(name, fuzz.damaged(content, rng), tmp_path)
+
+    read()
+
+
+@pytest.mark.parametrize(("name", "content"), FOUND)
+def test_what_was_found_once(name: str, content: bytes, tmp_path: Path) -> None:
+    must_be_read_or_refused(name, content, tmp_path)
+
+
+def test_the_judge_of_readers_sees_faults(tmp_path: Path) -> None:
+    """A reader that fails with a traceback, a warning or a page of text is told from a good one."""
+    path = tmp_path / "file"
+
+    def of(read: Any) -> str:
+        return fuzz.fault_of(fuzz.Reader("", (), read), path) or ""
+
+    assert "ZeroDivisionError" in of(lambda _: 1 // 0)
+    assert "RuntimeWarning" in of(lambda _: fuzz.np.float64(1.0) / fuzz.np.float64(0.0))
+    assert of(lambda _: None) == ""
