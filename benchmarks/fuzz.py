@@ -60,8 +60,8 @@ from fiveroute.instance import (
     Vortex,
 )
 from fiveroute.limits import Limits
-from fiveroute.plan import Plan
 from fiveroute.result import Result
+from fiveroute.routes import Plan
 
 SECONDS = 5
 """Processor time that reading a small file may take."""
@@ -78,8 +78,28 @@ PIECES = [
     *(b"-1", b"0", b"1e308", b"-1e308", b"1e999", b"nan", b"NaN", b"inf", b"-Infinity", b"1_0"),
     *(b"9" * 400, b"9" * 5000, b"0x10", b"1e-400", b"\xd9\xa1", b"null", b"true", b"{}", b"[]"),
     *(b"[" * 300, b'{"a":' * 200, b"<a>" * 100, b'"', b"'", b",", b";", b"\t", b":", b"}", b"]"),
-    *(b"\n", b"\r", b"\r\n", b"\0", b"\x1a", b"\x85", b"\xe2\x80\xa8", b"\xff", b"\xc3", b"\xef\xbb\xbf"),
-    *(b"\\ud800", b"\\u0000", b"&#0;", b"&#xD800;", b"&amp;", b"&x;", b"<!DOCTYPE a>", b"<![CDATA["),
+    *(
+        b"\n",
+        b"\r",
+        b"\r\n",
+        b"\0",
+        b"\x1a",
+        b"\x85",
+        b"\xe2\x80\xa8",
+        b"\xff",
+        b"\xc3",
+        b"\xef\xbb\xbf",
+    ),
+    *(
+        b"\\ud800",
+        b"\\u0000",
+        b"&#0;",
+        b"&#xD800;",
+        b"&amp;",
+        b"&x;",
+        b"<!DOCTYPE a>",
+        b"<![CDATA[",
+    ),
     *(b"EOF", b"-", b" ", b"x" * 3000, b"../../x", b"/etc/passwd", b"%s", b"<?xml?>", b"]]>"),
 ]
 VALUES: list[Any] = [
@@ -307,7 +327,7 @@ EVENTS = "".join(
         {"run": 0, "t": 9.0, "auv": 1, "kind": "send"},
     )
 ).encode()
-REFERENCE = b"instance,best_known,source\nbay,3.5,here\n\"p1, a\",12,there\nc,1e3,\n"
+REFERENCE = b'instance,best_known,source\nbay,3.5,here\n"p1, a",12,there\nc,1e3,\n'
 ROW = json.dumps(
     {
         "instance": "bay",
@@ -461,9 +481,7 @@ _READERS: dict[str, Callable[[], Reader]] = {
     "geojson": lambda: Reader(".geojson", (CHART,), partial(_read_chart, "geojson")),
     "kml": lambda: Reader(".kml", (KML,), partial(_read_chart, "kml")),
     "gpx": lambda: Reader(".gpx", (GPX,), partial(_read_chart, "gpx")),
-    "zones": lambda: Reader(
-        ".geojson", (ZONES,), lambda path: geojson_zones.read(read_text(path))
-    ),
+    "zones": lambda: Reader(".geojson", (ZONES,), lambda path: geojson_zones.read(read_text(path))),
     "netcdf": lambda: Reader(".nc", _netcdf(), _read_netcdf),
     "events": lambda: Reader(".jsonl", (EVENTS,), _read_events),
     "certificate": lambda: Reader(".json", (_certificate(),), _read_certificate),
