@@ -5,18 +5,19 @@ it is, or the one under way to which it is. From there it leads over the nodes o
 route to the destination. The AUV knows the law of the legs (12), not its luck, so it expects
 their means t_hat, and keeps a reserve for what may go wrong. Its time in hand is
 
-    T_max - t - t_hat - z sqrt(sum over legs of var_ij),
+    T_max - t - t_hat - z sqrt(sum over legs of var_ij + 1.5 max over legs of var_ij),
 
 t being the time at the anchor. It is negative exactly if (24) holds with a reserve of z standard
-deviations of the remaining time; z = 0 is (24) as the paper has it.
+deviations of the remaining time, the longest leg counted more; z = 0 is (24) as the paper has it.
 
 What the reserve promises: as long as nodes can be left out to help it, an AUV sets out for the
 next vertex only if what it then has before it, sailed as planned, ends in time with probability
-Phi(z), Phi being the standard normal distribution. Manoeuvres skew the sum of the legs, but little:
-for two legs of ten minutes, by 8 seconds at z = 1.645. That is one bet, and an AUV bets at every
-node anew; but it drops nodes when its luck is bad, so that only its last bets can make it late, and
-they are seldom tight. With the default, z = 1.645, a bet is lost once in twenty times at worst, and
-fewer than one AUV in a hundred is late.
+Phi(z) at least, Phi being the standard normal distribution. Manoeuvres skew the sum of the legs,
+but little: for two legs of ten minutes, by 8 seconds at z = 1.645. That is one bet, and an AUV bets
+at every node anew. It drops nodes when its luck is bad, so that only its last bets can make it
+late; but those are on one leg or two, which nothing can correct, and that is why the longest
+counts more. At z = 1.645 one AUV in a hundred is late without that (completion 0.887), 0.3 %
+with it (0.869), and 0.1 % if it is added twice (0.866).
 
 A rule that looks no further than the next node, and from there straight home, collects less: far
 out, one long leg has a greater variance than the same way in several, whose luck evens out.
@@ -36,9 +37,12 @@ from fiveroute.problem import TeamOrienteering
 from fiveroute.routes import Route
 from fiveroute.tiers.actuation import LegLaw, expected_legs
 
-__all__ = ["Course", "Outlook", "Stops", "in_hand", "outlook", "time_in_hand"]
+__all__ = ["LONGEST_LEG", "Course", "Outlook", "Stops", "in_hand", "outlook", "time_in_hand"]
 
 Stops = NDArray[np.int64]
+
+LONGEST_LEG = 1.5
+"""How often the variance of the longest leg counts besides its own place in the sum."""
 
 
 class Outlook(NamedTuple):
@@ -118,8 +122,11 @@ def in_hand(view: Outlook, course: Course) -> float:
 @kernel
 def time_in_hand(view: Outlook, stops: Stops, length: int, left: float, spread: float) -> float:
     """Time in hand with `left` seconds left at stops[0], on the way to stops[length - 1]."""
-    needed, uncertain = 0.0, spread
+    needed, uncertain, widest = 0.0, spread, 0.0
     for at in range(1, length):
         needed += view.legs[stops[at - 1], stops[at]]
-        uncertain += view.variance[stops[at - 1], stops[at]]
+        variance = view.variance[stops[at - 1], stops[at]]
+        uncertain += variance
+        widest = max(widest, variance)
+    uncertain += LONGEST_LEG * widest
     return float(left - needed - view.reserve * math.sqrt(uncertain) + view.slack)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from fiveroute.instance import Uncertainty
 from fiveroute.problem import TeamOrienteering
-from fiveroute.sea.course import Course, Outlook, in_hand, outlook
+from fiveroute.sea.course import LONGEST_LEG, Course, Outlook, in_hand, outlook
 from fiveroute.sea.discarding import discard
 from fiveroute.sea.picking import offers, pick_up_alone
 from fiveroute.tiers.actuation import leg_law
@@ -43,10 +43,10 @@ def test_the_trigger_is_24() -> None:
     assert in_hand(view, course(650.0, 1, 2)) == pytest.approx(50.0)
 
 
-def test_the_reserve_counts_every_leg_that_remains() -> None:
+def test_the_reserve_counts_every_leg_that_remains_and_the_longest_more() -> None:
     view = line([1000.0, 1000.0], [1.0, 1.0], ROUGH, 1.5)
     one = 200.0**2 + 0.5 * 120.0**2
-    there_and_back = 9000.0 - 2120.0 - 1.5 * (2.0 * one) ** 0.5
+    there_and_back = 9000.0 - 2120.0 - 1.5 * ((2.0 + LONGEST_LEG) * one) ** 0.5
     assert in_hand(view, course(9000.0, 1)) == pytest.approx(there_and_back)
     assert in_hand(view, course(9000.0, 1, 2)) == pytest.approx(there_and_back)
     under_way = Course(1, 0.0, one, 9000.0, ())
