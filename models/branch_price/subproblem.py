@@ -35,7 +35,7 @@ Booleans = NDArray[np.bool_]
 _MOST_NEIGHBOURS = 24
 _CUTS_AT_ONCE = 20
 _CANDIDATES = 4  # nodes, and as many legs, that a division is chosen from
-_LABELS_WITH_CUTS, _MORE_LABELS = 100_000, 10  # that pricing may take with cuts, also relative
+_LABELS_WITH_CUTS, _MORE_LABELS = 50_000, 5  # that pricing may take with cuts, also relative
 
 
 class Subproblem:
