@@ -182,7 +182,7 @@ def plan_mission(
 
         # Beyond the paper: the whole fleet at once, and how far it may be from optimal.
         if search == "fleet" and plan is not None and not steps.clock.expired:
-            until = steps.begin("fleet search", 1.0)
+            until = steps.begin("fleet search", 1.0, plan.objective(problem))
             plan = fleet_search(
                 problem,
                 until,
@@ -224,9 +224,12 @@ class _Steps:
     share: float
     progress: ProgressCallback | None
 
-    def begin(self, name: str, end: float) -> Limits:
-        """Limits for a step that must be over at the share `end` of the time for the plan."""
-        self.relay(Progress(0.0, message=name))
+    def begin(self, name: str, end: float, objective: float | None = None) -> Limits:
+        """Limits for a step that must be over at the share `end` of the time for the plan.
+
+        It is reported with the objective of the plan that it begins with.
+        """
+        self.relay(Progress(0.0, objective, message=name))
         limits = self.clock.limits
         return limits.within(limits.time * self.share * end - self.clock.seconds)
 
@@ -273,8 +276,9 @@ def _with_bound(
         return Result.judged(problem, plan, method=bound, seconds=clock.seconds)
     from fiveroute.models.bounds import quick_bound
 
-    steps.begin("bound", 1.0)
+    steps.begin("bound", 1.0, None if plan is None else plan.objective(problem))
     best = quick_bound(problem, clock.rest()).value
+    steps.relay(Progress(0.0, bound=best, message="bound"))
     if bound == "exact" and not (plan and is_closed(plan.objective(problem), best)):
         from fiveroute.models import solve
 

@@ -24,6 +24,7 @@ COMMANDS = {
     "simulate": "Carry a plan out in the uncertain ocean, again and again.",
     "decide": "Fleet size, departure, speed, reserve: a table and a picture each.",
     "view": "A look at a plan: a page that plays it, a picture or a film.",
+    "studio": "The same page live: edit a mission in the browser and plan it anew.",
     "verify": "Judge a plan: every violation, with its AUV, node and amount.",
     "generate": "Make scenarios: the paper's distribution and other layouts.",
     "convert": "Translate an instance, or a chart of nodes, from one file format to another.",

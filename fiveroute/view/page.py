@@ -14,11 +14,12 @@ from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
 from string import Template
+from typing import NamedTuple
 
 from fiveroute.view.payload import document_of, embedded
 from fiveroute.view.scene import Scene
 
-__all__ = ["SCRIPTS", "page_of"]
+__all__ = ["SCRIPTS", "Page", "assembled", "page_of", "view_scripts", "view_style"]
 
 SCRIPTS = (
     "numbers.js",
@@ -39,6 +40,21 @@ SCRIPTS = (
 """The page's scripts in the order in which they are joined."""
 
 
+class Page(NamedTuple):
+    """A page and the policy that it states.
+
+    Parameters
+    ----------
+    text
+        The HTML.
+    policy
+        Its content security policy.
+    """
+
+    text: str
+    policy: str
+
+
 def page_of(scenes: Sequence[Scene]) -> str:
     """The page of one scene, or of two to be compared.
 
@@ -47,27 +63,57 @@ def page_of(scenes: Sequence[Scene]) -> str:
     scenes
         One scene or two.
     """
-    style, script = _asset("page.css"), _script()
     title = " and ".join(dict.fromkeys(scene.title for scene in scenes))
-    return Template(_asset("page.html")).substitute(
-        title=html.escape(title),
-        style=style,
-        style_hash=_hash(style),
-        script=script,
-        script_hash=_hash(script),
-        data=embedded(document_of(scenes)),
+    parts = view_scripts()
+    return assembled(title, view_style(), parts, "start", embedded(document_of(scenes))).text
+
+
+def assembled(
+    title: str, style: str, scripts: Sequence[str], start: str, data: str, may_ask: bool = False
+) -> Page:
+    """Put a page together.
+
+    Parameters
+    ----------
+    title
+        Its title.
+    style
+        Its style sheet.
+    scripts
+        Its scripts, which share a scope of their own.
+    start
+        Name of the function that begins.
+    data
+        JSON text that can stand inside a script element.
+    may_ask
+        Whether it may ask the server that it comes from.
+    """
+    parts = "\n".join(scripts)
+    script = f'"use strict";\n(() => {{\n{parts}\n{start}();\n}})();\n'
+    policy = (
+        f"default-src 'none'; script-src '{_hash(script)}'; style-src '{_hash(style)}'; "
+        f"img-src data:; base-uri 'none'; form-action 'none'"
+        + ("; connect-src 'self'" if may_ask else "")
     )
+    text = Template(_asset("page.html")).substitute(
+        title=html.escape(title), policy=policy, style=style, script=script, data=data
+    )
+    return Page(text, policy)
+
+
+def view_scripts() -> list[str]:
+    """The scripts of the view, in their order."""
+    return [_asset(name) for name in SCRIPTS]
+
+
+def view_style() -> str:
+    """The style sheet of the view."""
+    return _asset("page.css")
 
 
 @cache
 def _asset(name: str) -> str:
     return (files("fiveroute.view") / "assets" / name).read_text(encoding="utf-8")
-
-
-def _script() -> str:
-    """All scripts as one, in a scope of their own."""
-    parts = "\n".join(_asset(name) for name in SCRIPTS)
-    return f'"use strict";\n(() => {{\n{parts}\nstart();\n}})();\n'
 
 
 def _hash(text: str) -> str:

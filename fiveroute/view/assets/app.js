@@ -14,8 +14,10 @@ const LIFE = 0.9;
 const byId = (id) => document.getElementById(id);
 
 class App {
-  constructor(scenes) {
+  /** editor: what lets the scene be changed on the map, see the studio; null shows it only. */
+  constructor(scenes, editor = null) {
     this.scenes = scenes;
+    this.editor = editor;
     this.camera = new Camera();
     this.kinds = new Set(Object.values(KINDS).flat());
     this.shows = { arrows: true, routes: true, names: true, events: true };
@@ -145,6 +147,13 @@ class App {
     this.redraw();
   }
 
+  /** Show a scene as it has become, from where it was looked at. */
+  replaceScene(which, scene) {
+    this.scenes[which] = scene;
+    for (const pane of this.panes) pane.choose(pane.which, pane.run);
+    this.changed();
+  }
+
   activate(pane) {
     if (this.active === pane) return;
     this.active = pane;
@@ -184,6 +193,7 @@ class App {
 
   marked(pane) {
     this.tables.forEach((table) => table.mark(pane.marked[table.kind]));
+    this.editor?.marked(pane);
     this.redraw();
   }
 
@@ -285,7 +295,7 @@ class App {
   pressed(event) {
     if (event.ctrlKey || event.metaKey || event.altKey || byId("keys").open) return;
     const { target } = event;
-    if (target.matches("select, input[type=checkbox]")) return;
+    if (target.matches("select, input:not([type=range])")) return;
     const isPressable = target.matches("button, [role=tab], tr");
     if (isPressable && [" ", "Enter"].includes(event.key)) return;
     const action = this.actionOf(event);

@@ -40,7 +40,7 @@ function planTimeline(scene) {
     }
   });
   events.sort((a, b) => a.t - b.t);
-  return finished(scene, "plan as filed", scene.legs, events, false);
+  return finished(scene, scene.label || "plan as filed", scene.legs, events, false);
 }
 
 function runTimeline(scene, run) {

@@ -132,6 +132,7 @@ class Pane {
     if (this.marked.node) this.drawMarkedNode(context, view, theme);
     if (shows.events) drawEvents(context, view, this.scene, this.timeline, theme, t, look);
     drawAuvs(context, view, this.timeline, theme, t, this.marked.auv);
+    this.app.editor?.draw(context, view, this, theme);
     drawFurniture(context, view, this.scene, theme);
   }
 
@@ -173,6 +174,7 @@ class Pane {
     const { canvas, app } = this;
     const fingers = new Map();
     let moved = 0;
+    let grip = null;
     const spread = () => {
       const [a, b] = [...fingers.values()];
       return {
@@ -199,6 +201,8 @@ class Pane {
       canvas.setPointerCapture(event.pointerId);
       fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
       moved = 0;
+      grip?.drop(false);
+      grip = fingers.size === 1 && app.editor ? app.editor.grip(this, event) : null;
       app.hideTip();
     });
     canvas.addEventListener("pointermove", (event) => {
@@ -216,14 +220,19 @@ class Pane {
         const at = this.fromCentre({ clientX: after.x, clientY: after.y });
         app.camera.pan(after.x - before.x, after.y - before.y);
         app.camera.zoomAt(after.size / before.size, at.dx, at.dy);
+      } else if (grip) {
+        if (moved >= 4) grip.move(event);
       } else if (fingers.size === 1) {
         app.camera.pan(dx, dy);
       }
       app.redraw();
     });
     const release = (event) => {
-      if (fingers.delete(event.pointerId) && event.type === "pointerup" && moved < 4)
-        this.click(event);
+      if (!fingers.delete(event.pointerId)) return;
+      const isClick = event.type === "pointerup" && moved < 4;
+      grip?.drop(event.type === "pointerup" && !isClick);
+      grip = null;
+      if (isClick) this.click(event);
     };
     canvas.addEventListener("pointerup", release);
     canvas.addEventListener("pointercancel", release);
@@ -270,6 +279,7 @@ class Pane {
   }
 
   click(event) {
+    if (this.app.editor?.click(this, event)) return;
     const { auv, node } = this.under(...this.place(event));
     this.app.activate(this);
     this.mark(auv, node);
@@ -297,6 +307,7 @@ class Pane {
   hover(event) {
     if (!this.view) return;
     const [px, py] = this.place(event);
+    this.app.editor?.hover(this, px, py);
     const found = this.under(px, py);
     const lines =
       found.auv >= 0
