@@ -33,6 +33,7 @@ from fiveroute.models.max_flow_cuts import violated_sets
 from fiveroute.models.pyomo_program import translate
 from fiveroute.models.reach import usable_legs
 from fiveroute.models.symmetry import in_order
+from fiveroute.models.unreduced import UNREDUCED
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result
 from fiveroute.routes import Plan, Route
@@ -100,6 +101,8 @@ class _Search:
         self.rejected: set[Route] = set()
         self._program, columns = translate(model, answer.clock, self._on_progress)
         self._program.set("mip_rel_gap", answer.clock.limits.gap)
+        for option, value in UNREDUCED.items():
+            self._program.set(option, value)
         self._program.highs.cbMipImprovingSolution += self._on_solution
         self._legs = {leg: columns[x] for leg, x in model.x.items()}
         self._visits = {visit: columns[y] for visit, y in model.y.items()}

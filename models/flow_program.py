@@ -20,6 +20,7 @@ from fiveroute.models.flow_relaxation import crossing, incidence
 from fiveroute.models.highs import Outcome, Program
 from fiveroute.models.legs import Leg, legs_of
 from fiveroute.models.network import Network
+from fiveroute.models.unreduced import UNREDUCED
 from fiveroute.routes import Plan, Route
 
 __all__ = ["FlowProgram", "Routes", "arcs_of"]
@@ -108,7 +109,8 @@ class FlowProgram:
         self._program.require_integers(True)
         self._program.set("mip_rel_gap", gap)
         self._program.set("mip_abs_gap", 0.0)
-        self._program.set("mip_allow_restart", False)  # it costs more here than it saves
+        for option, value in UNREDUCED.items():
+            self._program.set(option, value)
         self._program.set("mip_feasibility_tolerance", _TOLERANCE)
         self._program.set("primal_feasibility_tolerance", _TOLERANCE)
         return self._program.solve()
