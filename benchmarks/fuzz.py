@@ -2,12 +2,12 @@
 
     python benchmarks/fuzz.py READER|all [--count N] [--seed N] [--only K]
 
-A file that is well-formed is damaged with its structure in mind: bits, pieces and lines are cut out,
-doubled, moved and written over, numbers and words become absurd ones, keys and values of JSON are
-lost, doubled and exchanged, encodings and ends of lines are others, and the end is cut off. A
-reader may answer or refuse with one printable line (`InputError`); anything else is a finding: another
-exception, a warning, more than `SECONDS` of processor time, more than `MEMORY`, the end of the
-process. Input K of a reader and a seed is the same in every run; ``--only K`` reads it alone.
+A file that is well-formed is damaged with its structure in mind: bits, pieces and lines are cut
+out, doubled, moved and written over, numbers and words become absurd ones, keys and values of JSON
+are lost, doubled and exchanged, encodings and ends of lines are others, and the end is cut off. A
+reader may answer, or refuse with one printable line (`InputError`); anything else is a finding:
+another exception, a warning, more than `SECONDS` of processor time, more than `MEMORY`, the end of
+the process. Input K of a reader and a seed is the same in every run; ``--only K`` reads it alone.
 """
 
 from __future__ import annotations

@@ -31,6 +31,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 _PACKAGE = Path(__file__).parent
 
 _CONFIG: Any = numba.config
+_NUMBA: Any = caching
 
 _SEAL = 32
 """Bytes of a digest."""
@@ -44,7 +45,7 @@ def kernel(function: F) -> F:
     return cast(F, compiled)
 
 
-class _SealedFile(caching.IndexDataCacheFile):  # type: ignore[misc]
+class _SealedFile(_NUMBA.IndexDataCacheFile):  # type: ignore[misc]
     """Kept kernels, each with its digest at the end, which unpickling does not look at."""
 
     def _dump(self, obj: Any) -> bytes:
@@ -58,15 +59,13 @@ class _SealedFile(caching.IndexDataCacheFile):  # type: ignore[misc]
         return super()._load_data(name)
 
 
-class _KernelCache(caching.FunctionCache):  # type: ignore[misc]
+class _KernelCache(_NUMBA.FunctionCache):  # type: ignore[misc]
     """numba's cache of a function, without which everything works as well, only slower."""
 
     def __init__(self, function: Callable[..., Any]) -> None:
         super().__init__(function)
-        held = self._cache_file
-        self._cache_file = _SealedFile(
-            self._cache_path, self._impl.filename_base, held._source_stamp
-        )
+        stamp = self._impl.locator.get_source_stamp()
+        self._cache_file = _SealedFile(self._cache_path, self._impl.filename_base, stamp)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The compiled function, or None; a spoilt file is emptied."""

@@ -215,7 +215,7 @@ def written_whole(path: Path) -> Iterator[Path]:
 
 def _reason(error: Exception, done: str = "read") -> str:
     for kind, remedy in _REMEDIES:
-        if isinstance(error, kind):
+        if isinstance(error, kind) and (done == "read" or kind is not FileNotFoundError):
             return remedy
     told = error.strerror if isinstance(error, OSError) else str(error)
     return f"cannot be {done} ({told}); check the name and the disk"

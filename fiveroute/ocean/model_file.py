@@ -58,7 +58,7 @@ def open_model_file(path: Path | str) -> Iterator[xr.Dataset]:
 
 def _require_hdf5(path: Path | str) -> None:
     """Look at a file as h5netcdf will: its own failure is heard twice, on standard error too."""
-    import h5py
+    import h5py  # type: ignore[import-untyped]
 
     with h5py.File(path, "r") as held:
         held.attrs.get("_nc3_strict")

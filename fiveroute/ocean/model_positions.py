@@ -28,6 +28,7 @@ __all__ = ["Positions", "read_positions"]
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
+_TOO_MANY = 200_000_000  # cells
 _EARTH = 6.371e6  # mean radius in metres
 _LENGTHS = {"m": 1.0, "meter": 1.0, "meters": 1.0, "metre": 1.0, "metres": 1.0, "km": 1e3}
 _PROJ = ("proj4", "proj4_params", "proj4text")  # attributes that hold a PROJ string
@@ -125,8 +126,23 @@ def read_positions(
     Raises
     ------
     InputError
-        If there are none, or the grid is unstructured.
+        If there are none, or not on Earth, or the grid is unstructured.
     """
+    if data.sizes[dims[0]] * data.sizes[dims[1]] > _TOO_MANY:
+        raise InputError(f"has more than {_TOO_MANY:.0e} cells; cut a part out", field=name)
+    positions = _found(data, name, dims, origin)
+    with np.errstate(invalid="ignore"):
+        absurd = (np.abs(positions.lat) > 90.001) | (np.abs(positions.lon) > 1080.0)
+    if absurd.any() or not np.isfinite(positions.lon + positions.lat).any():
+        raise InputError(
+            "has cells at no longitudes and latitudes of the Earth; copy the file again", field=name
+        )
+    return positions
+
+
+def _found(
+    data: xr.Dataset, name: str, dims: tuple[str, str], origin: tuple[float, float] | None
+) -> Positions:
     lon, lat = find_coordinate(data, "lon", dims), find_coordinate(data, "lat", dims)
     if lon is None or lat is None:
         return _projected(data, name, dims)

@@ -93,8 +93,8 @@ def _is_sound(table: LegTable) -> bool:
     """Whether shapes, types and numbers are those of a table."""
     times, first, legs, tracks = table.times, table.first, table.legs, table.tracks
     size, count = len(times), len(legs)
-    kinds = (times.dtype, first.dtype, legs.dtype, tracks.dtype)
-    if kinds != (np.float64, np.int64, np.int64, np.float64):
+    kinds = [str(part.dtype) for part in (times, first, legs, tracks)]
+    if kinds != ["float64", "int64", "int64", "float64"]:
         return False
     if (times.shape, first.shape, legs.shape) != ((size, size), (count + 1,), (count, 2)):
         return False

@@ -46,6 +46,9 @@ TOLERANCE = 1.0
 
 Floats = NDArray[np.float64]
 
+_NAMES = r"(?!(?i:con|prn|aux|nul|com\d|lpt\d)(\.|$))[A-Za-z0-9_][A-Za-z0-9_.-]{0,59}"
+"""Names of AUVs become names of files; Windows keeps some for devices."""
+
 _CORNERS = 64  # of the polygon around a round obstacle
 
 
@@ -317,7 +320,7 @@ def _names(size: int, stated: tuple[str, ...]) -> tuple[str, ...]:
             f"must be given {size} times, once for every AUV", field="--vehicle", value=len(stated)
         )
     for i, name in enumerate(stated):
-        if not re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9_.-]{0,59}", name) or name in stated[:i]:
+        if not re.fullmatch(_NAMES, name) or name in stated[:i]:
             raise InputError(
                 "must be a name of its own, of letters, digits, '_', '-' and '.'",
                 field="--vehicle",
@@ -338,5 +341,10 @@ def _beginning(instance: Instance) -> datetime | None:
     begin = instance.ocean.currents.begin
     if begin is None:
         return None
-    moment = np.datetime64(begin.removesuffix("Z"), "us").item()
+    try:
+        moment = np.datetime64(begin.removesuffix("Z"), "us").item()
+    except ValueError:
+        raise InputError(
+            "is no time; write 2016-01-31T12:00", field="ocean.currents.begin", value=begin
+        ) from None
     return moment if isinstance(moment, datetime) else None

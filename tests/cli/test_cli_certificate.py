@@ -50,7 +50,7 @@ def test_a_certificate_for_another_instance_is_refused(
 
 
 @pytest.mark.parametrize(
-    ("text", "message"), [("{", "is no JSON"), ("[]", "must be a JSON object")]
+    ("text", "message"), [("{", "JSON text ends too early"), ("[]", "must be a JSON object")]
 )
 def test_what_is_no_certificate(call: Any, tmp_path: Path, text: str, message: str) -> None:
     path = tmp_path / "certificate.json"

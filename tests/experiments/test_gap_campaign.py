@@ -145,5 +145,5 @@ def test_a_killed_run_goes_on_where_it_was(tmp_path: Path) -> None:
     assert all(file.read_bytes() == content for file, content in finished.items())
     before = [GapRow.of_document(json.loads(content)) for content in finished.values()]
     after = {row["instance"]: GapRow.of_document(row) for row in rows}
-    assert all(after[row.instance] == row for row in before)
+    assert all(row is not None and after[row.instance] == row for row in before)
     assert len(table.read_text().splitlines()) == 7

@@ -1,4 +1,4 @@
-"""Damaged files of every kind: read, or refused in one line. `benchmarks/fuzz.py` does it longer."""
+"""Damaged files of every kind are read, or refused in one line; `benchmarks/fuzz.py` goes on."""
 
 import importlib.util
 import sys

@@ -1,0 +1,190 @@
+"""Every command that writes, killed at any moment: what it writes is the old file or the new one.
+
+    python benchmarks/kill.py COMMAND|all [--count N] [--seed N]
+
+A command is carried out once, which gives its time and its files. Then it is started again and
+again over them, in every other run with the files taken away before, and killed (SIGKILL) after a
+random time, half of them in the last fifth, where it writes. After each kill every file must be
+whole, or missing where it was missing; only hidden drafts may lie beside them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import io
+import json
+import os
+import random
+import shutil
+import signal
+import sys
+import tempfile
+import time
+import zipfile
+from pathlib import Path
+
+from fiveroute.cli import main as fiveroute
+from fiveroute.formats import read_instance, read_plan, write_instance
+from fiveroute.generate import generate
+
+COMMANDS = {
+    "generate": "generate uniform --nodes 5000 --output new.json",
+    "convert": "convert bay.json --to native --output new.json",
+    "plan": "plan bay.json --output new.plan.json",
+    "solve": "solve bay.json --output new.plan.json --certificate new.certificate.json",
+    "export-folder": "export bay.plan.json --to moos --depth 5 --origin 10,63 --output new",
+    "export-archive": "export bay.plan.json --to neptus --depth 5 --origin 10,63 "
+    "--output new.nmisz",
+    "export-file": "export bay.plan.json --to kml --depth 5 --origin 10,63 --output new.kml",
+    "view": "view bay.plan.json --output new.html",
+    "picture": "view bay.plan.json --output new.png",
+    "simulate": "simulate bay.json bay.plan.json --runs 3 --workers 1 --events new.jsonl "
+    "--output new.csv",
+    "parquet": "simulate bay.json bay.plan.json --runs 3 --workers 1 --output new.parquet",
+    "gap": "gap bay.json --time-limit 0.2 --exact-time-limit 0.2 --workers 1 --keep kept "
+    "--output new.csv",
+    "decide": "decide fleet-size bay.json --sizes 1,2 --time-limit 1 --output new.csv",
+    "experiment": "experiment preplanning --scenarios 1 --output new",
+}
+
+
+def is_whole(path: Path) -> bool:
+    """Whether a file is complete, by the rules of its format."""
+    content = path.read_bytes()
+    if path.name.endswith(".plan.json"):
+        read_plan(path)
+    elif path.suffix == ".json" and b"fiveroute-instance/1" in content:
+        read_instance(path)
+    elif path.suffix == ".json":
+        json.loads(content)
+    elif path.suffix == ".jsonl":
+        return content.endswith(b"\n") and all(map(json.loads, content.splitlines()))
+    elif path.suffix == ".csv":
+        rows = list(csv.reader(io.StringIO(content.decode())))
+        return content.endswith(b"\n") and len({len(row) for row in rows}) == 1
+    elif path.suffix == ".nmisz":
+        return zipfile.ZipFile(path).testzip() is None
+    elif path.suffix == ".png":
+        return content.endswith(b"IEND\xaeB`\x82")
+    elif path.suffix == ".parquet":
+        return content.startswith(b"PAR1") and content.endswith(b"PAR1")
+    else:
+        end = {".html": b"</html>", ".kml": b"</kml>"}.get(path.suffix, b"")
+        return len(content) > 0 and content.rstrip().endswith(end)
+    return True
+
+
+def started(arguments: list[str], folder: Path) -> int:
+    """The process of a command, forked so that nothing has to be imported again."""
+    child = os.fork()
+    if child:
+        return child
+    os.chdir(folder)
+    nowhere = os.open(os.devnull, os.O_RDWR)
+    for stream in range(3):
+        os.dup2(nowhere, stream)
+    try:
+        fiveroute(arguments)
+    except SystemExit as end:
+        os._exit(end.code if isinstance(end.code, int) else 0)
+    finally:
+        os._exit(99)
+
+
+def seen(folder: Path, inputs: frozenset[str]) -> frozenset[str]:
+    """Files of a command, without its inputs and drafts."""
+    names = (path.relative_to(folder) for path in folder.rglob("*") if path.is_file())
+    shown = (name for name in names if not any(part.startswith(".") for part in name.parts))
+    return frozenset(map(str, shown)) - inputs
+
+
+def reset(folder: Path, model: Path) -> int:
+    """Make a folder the same as another one; the number of drafts that were in it."""
+    drafts = sum(path.name.startswith(".") for path in folder.iterdir())
+    shutil.rmtree(folder)
+    shutil.copytree(model, folder)
+    return drafts
+
+
+def prepared(folder: Path) -> frozenset[str]:
+    """Write what commands read, and load what they run."""
+    bay = generate("uniform", nodes=6, seed=1, fleet_size=2, currents="none")
+    write_instance(bay, folder / "bay.json")
+    for line in ("plan bay.json --output bay.plan.json", "simulate bay.json --runs 1 --workers 1"):
+        here, out = Path.cwd(), os.dup(1)
+        os.chdir(folder)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        try:
+            fiveroute(line.split())
+        except SystemExit as end:
+            if end.code != 0:
+                raise
+        finally:
+            os.dup2(out, 1)
+            os.chdir(here)
+    return frozenset(path.name for path in folder.iterdir())
+
+
+def run(name: str, count: int, seed: int) -> int:
+    """Kill a command again and again; the number of findings."""
+    rng = random.Random(f"{name} {seed}")
+    arguments = [*COMMANDS[name].split(), "--force"]
+    with tempfile.TemporaryDirectory() as place:
+        folder, before, after = (Path(place) / part for part in ("here", "before", "after"))
+        folder.mkdir()
+        inputs = prepared(folder)
+        shutil.copytree(folder, before)
+        begun = time.monotonic()
+        _, status = os.waitpid(started(arguments, folder), 0)
+        whole, seconds = seen(folder, inputs), time.monotonic() - begun
+        shutil.copytree(folder, after)
+        assert status == 0, name
+        assert whole, name
+        killed = drafts = findings = 0
+        for k in range(count):
+            reset(folder, before if k % 2 else after)
+            child = started(arguments, folder)
+            time.sleep(seconds * rng.choice((rng.random(), rng.uniform(0.8, 1.1))))
+            os.kill(child, signal.SIGKILL)
+            _, status = os.waitpid(child, 0)
+            killed += status == signal.SIGKILL
+            for fault in faults(folder, inputs, whole, is_over=k % 2 == 0):
+                findings += 1
+                sys.stdout.write(f"{name}: {fault}\n")
+            drafts += reset(folder, before)
+    sys.stdout.write(
+        f"{name}: {count} runs of {seconds:.2f} s, {killed} killed, {drafts} of them while "
+        f"writing, {findings} findings\n"
+    )
+    sys.stdout.flush()
+    return findings
+
+
+def faults(
+    folder: Path, inputs: frozenset[str], whole: frozenset[str], *, is_over: bool
+) -> list[str]:
+    """What is wrong with the files of a killed command."""
+    found = seen(folder, inputs)
+    wrong = [f"{path} is not whole" for path in found if not is_whole(folder / path)]
+    strange = {path for path in found if not path.startswith("kept/")} - whole
+    wrong += [f"{path} is not one of its files" for path in strange]
+    if is_over:
+        wrong += [f"{path} is lost" for path in whole if path not in found]
+    if (folder / "new").exists() and whole - found and "new/report.md" not in whole:
+        wrong.append("new is half a folder")  # reports are several files, one after the other
+    return wrong
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("command", choices=[*COMMANDS, "all"])
+    parser.add_argument("--count", type=int, default=100)
+    parser.add_argument("--seed", type=int, default=0)
+    asked = parser.parse_args()
+    names = list(COMMANDS) if asked.command == "all" else [asked.command]
+    sys.exit(sum(run(name, asked.count, asked.seed) for name in names) > 0)
+
+
+if __name__ == "__main__":
+    main()
