@@ -278,7 +278,7 @@ def _with_bound(
 
     steps.begin("bound", 1.0, None if plan is None else plan.objective(problem))
     best = quick_bound(problem, clock.rest()).value
-    steps.relay(Progress(0.0, bound=best, message="bound"))
+    steps.relay(Progress(0.0, bound=best))
     if bound == "exact" and not (plan and is_closed(plan.objective(problem), best)):
         from fiveroute.models import solve
 
