@@ -10,8 +10,8 @@ import pytest
 from fiveroute.errors import InputError
 from fiveroute.formats import PlanFile
 from fiveroute.instance import Fleet, Instance, Node, Point
-from fiveroute.plan import Plan
 from fiveroute.result import Result
+from fiveroute.routes import Plan
 from fiveroute.vehicle_files import VEHICLE_FORMATS, Choices, export_plan
 from fiveroute.vehicle_files.writing import write_folder
 
