@@ -16,6 +16,7 @@ import numpy as np
 import fiveroute
 from fiveroute.formats.plan_file import PlanFile
 from fiveroute.instance import Instance
+from fiveroute.metric import distances
 from fiveroute.result import Status
 
 __all__ = ["blank", "drafted"]
@@ -28,7 +29,16 @@ _Track = tuple[tuple[float, float], ...]
 def blank(instance: Instance) -> PlanFile:
     """A mission without any route."""
     return PlanFile(
-        instance, (), (), 0.0, Status.NO_SOLUTION, None, METHOD, None, fiveroute.__version__
+        instance,
+        routes=(),
+        durations=(),
+        objective=0.0,
+        status=Status.NO_SOLUTION,
+        bound=None,
+        method=METHOD,
+        seed=None,
+        version=fiveroute.__version__,
+        paths=(),
     )
 
 
@@ -104,16 +114,24 @@ def _durations(
 ) -> tuple[float, ...]:
     """Seconds of every route, as if the water stood still."""
     vertices = {node.id: vertex for vertex, node in enumerate(instance.nodes, start=1)}
-    travel, service = instance.travel, instance.service_times
+    service = instance.service_times
     durations = []
     for auv, route in enumerate(routes):
         stops = [0, *(vertices[name] for name in route), len(instance.nodes) + 1]
         if paths is None:
-            legs = [travel[leg] for leg in itertools.pairwise(stops)]
+            legs = _still_legs(instance, stops)
         else:
             legs = [_length(path) / instance.fleet.speed for path in paths[auv]]
         durations.append(float(sum(legs) + service[stops].sum()))
     return tuple(durations)
+
+
+def _still_legs(instance: Instance, stops: Sequence[int]) -> list[float]:
+    """Seconds of the legs between successive stops in still water, equation (1)."""
+    if instance.travel_times is not None:
+        return [instance.travel_times[tail][head] for tail, head in itertools.pairwise(stops)]
+    lengths = distances(instance.metric, instance.points[stops])
+    return [float(length) / instance.fleet.speed for length in np.diagonal(lengths, 1)]
 
 
 def _length(path: _Track) -> float:

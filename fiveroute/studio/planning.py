@@ -15,7 +15,7 @@ from fiveroute.errors import FiverouteError
 from fiveroute.fleet_plan import plan
 from fiveroute.formats.plan_file import PlanFile
 from fiveroute.instance import Instance
-from fiveroute.limits import Limits, Progress
+from fiveroute.limits import Clock, Limits, Progress
 from fiveroute.result import optimality_gap
 
 __all__ = ["Job", "Wish"]
@@ -79,11 +79,13 @@ class Job:
     bound: float | None = None
     points: list[tuple[float, float | None, float | None]] = field(default_factory=list)
     limits: Limits = field(default_factory=Limits)
+    clock: Clock = field(default_factory=lambda: Limits().start())
     thread: threading.Thread | None = None
 
     def start(self, after: Job | None = None) -> None:
         """Begin, once another job is over."""
         self.limits = Limits(self.wish.seconds)
+        self.clock = self.limits.start()
         self.bound = sum(node.data for node in self.instance.nodes)
         self.thread = threading.Thread(target=self._run, args=(after,), daemon=True)
         self.thread.start()
@@ -103,7 +105,7 @@ class Job:
             "state": self.state,
             "message": self.message,
             "error": self.error,
-            "seconds": self.seconds,
+            "seconds": self.clock.seconds if self.state == "running" else self.seconds,
             "limit": self.wish.seconds,
             "objective": self.objective,
             "bound": self.bound,

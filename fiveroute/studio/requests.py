@@ -23,6 +23,12 @@ T = TypeVar("T")
 
 _STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
 
+_REMEDIES = {
+    "pass --depth D in metres": "enter a depth in metres",
+    "pass a smaller --depth": "enter a smaller depth",
+    "pass --origin LON,LAT": "enter the origin's longitude, latitude",
+}
+
 _Name = Annotated[str, Field(min_length=1, max_length=200)]
 
 
@@ -101,7 +107,19 @@ def _save(session: Session, saving: _Saving) -> dict[str, Any]:
 
 def _export(session: Session, export: _Export) -> dict[str, Any]:
     choices = Choices(depth=export.depth, origin=export.origin)
-    return session.export(export.format, export.name, choices, export.overwrite)
+    try:
+        return session.export(export.format, export.name, choices, export.overwrite)
+    except InputError as error:
+        raise _of_the_form(error) from None
+
+
+def _of_the_form(error: InputError) -> InputError:
+    """The same error with the remedies of the page's form for those of the command line."""
+    rule = error.rule
+    for option, field in _REMEDIES.items():
+        rule = rule.replace(option, field)
+    where = None if error.field is None else error.field.removeprefix("--")
+    return InputError(rule, value=error.value, field=where, file=error.file, line=error.line)
 
 
 READS: dict[str, Callable[[Session], dict[str, Any]]] = {

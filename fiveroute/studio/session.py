@@ -18,6 +18,7 @@ from fiveroute.formats.files import read_text
 from fiveroute.formats.native import instance_document, instance_hash
 from fiveroute.formats.plan_file import TAG, PlanFile, read_plan
 from fiveroute.instance import Fleet, Instance, Point
+from fiveroute.kernels import on_compilation
 from fiveroute.studio.drafts import blank, drafted
 from fiveroute.studio.edits import Edit, edited, kept_ids
 from fiveroute.studio.planning import Job, Wish
@@ -73,6 +74,7 @@ class Session:
         self._revision = 0
         self._job: Job | None = None
         self._lock = threading.RLock()
+        on_compilation(self._compiles)
 
     @classmethod
     def opened(cls, path: Path | None, folder: Path | None = None) -> Session:
@@ -231,6 +233,10 @@ class Session:
         if self._job is not None:
             self._job.stop()
             self._job = None
+
+    def _compiles(self) -> None:
+        if self._job is not None:
+            self._job.message = "compiling its kernels, once; this takes a minute or so"
 
     def _ended(self, job: Job) -> None:
         with self._lock:

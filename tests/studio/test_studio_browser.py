@@ -87,6 +87,7 @@ def plan(visit: Visit) -> str:
 def test_a_day_at_the_studio(browser: Any, studio: Studio, mission_path: Path) -> None:
     visit = Visit(browser, studio)
     page, session = visit.page, studio.session
+    page.click("#how")
     page.select_option("#bound-kind", "none")
     visit.fit(studio)
     assert plan(visit) == "unknown"
@@ -168,7 +169,7 @@ def test_errors_stand_on_the_page(browser: Any, studio: Studio, mission_path: Pa
     page.select_option("#export-format", "qgc")
     page.fill("#export-name", "out")
     page.click("#export")
-    visit.expect("#toast").to_contain_text("depth")
+    visit.expect("#toast").to_contain_text("enter a depth in metres")
     page.fill("#export-depth", "10")
     page.click("#export")
     visit.expect("#toast").to_contain_text("Exported out: auv-1")

@@ -49,18 +49,20 @@ class GapView {
     const { context, width, height } = sized(this.canvas);
     context.clearRect(0, 0, width, height);
     const points = job.points;
-    const end = Math.max(job.seconds, 1e-3);
+    const first = points.find((point) => point[1] !== null);
+    const begin = first ? first[0] : 0;
+    const end = Math.max(job.seconds, begin + 0.1);
     const known = points.map((point) => point[1]).filter((value) => value !== null);
     const low = known.length ? Math.min(...known) : 0;
     const high = Math.max(total, low + 1e-9);
-    const x = (seconds) => 4 + ((width - 8) * seconds) / end;
+    const x = (seconds) => 4 + ((width - 8) * Math.max(seconds - begin, 0)) / (end - begin);
     const y = (value) => height - 16 - ((height - 24) * (value - low)) / (high - low);
     drawSteps(context, points, 2, end, x, y, theme.quiet, [4, 3]);
     drawSteps(context, points, 1, end, x, y, auvColour(theme, 0), []);
     context.font = "11px system-ui, sans-serif";
     context.fillStyle = theme.quiet;
     context.textAlign = "right";
-    context.fillText(`${end.toFixed(1)} s`, width - 4, height - 3);
+    context.fillText(`${begin.toFixed(1)} to ${end.toFixed(1)} s`, width - 4, height - 3);
     context.textAlign = "left";
     context.fillText("— best plan   - - bound", 4, height - 3);
   }

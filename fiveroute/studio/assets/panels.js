@@ -1,7 +1,7 @@
 // The panels of the studio: plan, mission, stop; files.
 
 const LEGS = { ocean: "through the ocean", straight: "straight lines" };
-const BOUNDS = { quick: "quick", exact: "until proved or time is up", none: "none" };
+const BOUNDS = { quick: "quick", exact: "until proved", none: "none" };
 
 function section(title, ...children) {
   return element("section", { class: "part" }, element("h2", {}, title), ...children);
@@ -18,21 +18,36 @@ class PlanPart {
       title: "Plan anew (P)",
     });
     this.stop = button("stop", "Stop, keep the best", () => studio.stop());
-    this.legs = choiceOf("legs", "Legs", LEGS);
-    this.bound = choiceOf("bound-kind", "Bound", BOUNDS);
-    this.seconds = new Field("seconds", "Time limit", { unit: "s" });
+    const onChange = () => this.sum();
+    this.legs = choiceOf("legs", "Legs", LEGS, onChange);
+    this.bound = choiceOf("bound-kind", "Bound", BOUNDS, onChange);
+    this.seconds = new Field("seconds", "Time limit", { unit: "s", onChange });
     this.seconds.show("30");
+    this.summary = element("summary", { id: "how" });
     this.auto = element("input", { type: "checkbox", id: "auto" });
     this.box = section(
       "Plan",
       this.state,
       this.gap.box,
       element("div", { class: "row" }, this.go, this.stop),
-      this.legs.line,
-      this.bound.line,
-      this.seconds.line,
-      element("label", { class: "check" }, this.auto, " plan anew after every edit, five seconds"),
+      element(
+        "details",
+        { class: "how" },
+        this.summary,
+        this.legs.line,
+        this.bound.line,
+        this.seconds.line,
+      ),
+      element("label", { class: "check" }, this.auto, " plan after every edit, for five seconds"),
     );
+    this.sum();
+  }
+
+  /** Say in a line how it is planned. */
+  sum() {
+    const legs = this.legs.line.hidden ? [] : [`legs ${LEGS[this.legs.select.value]}`];
+    const bound = `bound ${BOUNDS[this.bound.select.value]}`;
+    this.summary.textContent = [...legs, bound, `${this.seconds.text} s`].join(", ");
   }
 
   get isStraight() {
@@ -53,6 +68,7 @@ class PlanPart {
     const { job, planned } = state;
     const isRunning = job?.state === "running";
     this.legs.line.hidden = !state.ocean;
+    this.sum();
     this.stop.disabled = !isRunning;
     this.box.classList.toggle("running", isRunning);
     this.state.textContent = planWords(state, scene);
@@ -71,6 +87,8 @@ function planWords({ job, planned }, scene) {
     return `Planning: ${job.message}, ${job.seconds.toFixed(1)} of ${amount(job.limit)} s`;
   if (job?.state === "failed") return `No plan: ${job.error}`;
   if (planned && job?.state === "stopped") return "Stopped: the best plan so far.";
+  if (planned && job && job.seconds > 0.95 * job.limit)
+    return "The plan is up to date. Its time ran out: more may make it better.";
   if (planned) return "The plan is up to date.";
   if (!scene.routes.length) return "There is no plan yet.";
   return "The plan is older than the mission: routes are a draft.";
@@ -85,7 +103,6 @@ class MissionPart {
     this.size = new Field("fleet-size", "AUVs", { hint: "as estimated", onChange });
     this.endurance = new Field("endurance", "Endurance", { unit: "s", hint: "unlimited", onChange });
     this.speed = new Field("speed-water", "Speed", { unit: "m/s", onChange });
-    const fields = [this.name, this.size, this.endurance, this.speed];
     const steps = [-1, 1].map((step) =>
       button(step < 0 ? "fewer" : "more", step < 0 ? "−" : "+", () => this.resize(step), {
         "aria-label": step < 0 ? "One AUV fewer" : "One AUV more",
@@ -93,6 +110,7 @@ class MissionPart {
       }),
     );
     this.size.unit.replaceChildren(...steps);
+    const fields = [this.name, this.size, this.endurance, this.speed];
     this.box = section("Mission", ...fields.map((field) => field.line));
   }
 
@@ -137,7 +155,7 @@ class StopPart {
     this.x = new Field("stop-x", "East", { unit: "m", onChange });
     this.y = new Field("stop-y", "North", { unit: "m", onChange });
     this.data = new Field("stop-data", "Data", { onChange });
-    this.service = new Field("stop-service", "Service", { unit: "s", hint: "by its data", onChange });
+    this.service = new Field("stop-service", "Service", { unit: "s", hint: "by data", onChange });
     this.depth = new Field("stop-depth", "Depth", { unit: "m", hint: "that of the fleet", onChange });
     this.add = button("add", "Add a node", () => studio.editor.setAdding(!studio.editor.isAdding), {
       "aria-pressed": "false",
@@ -151,7 +169,10 @@ class StopPart {
     this.fields = element(
       "div",
       {},
-      ...[this.id, this.x, this.y, this.data, this.service, this.depth].map((field) => field.line),
+      this.id.line,
+      element("div", { class: "pair" }, this.x.line, this.y.line),
+      element("div", { class: "pair" }, this.data.line, this.service.line),
+      this.depth.line,
     );
     this.none = element("p", { class: "hint" }, "Drag a node, the start ▲ or the destination ★. Click one to edit it here.");
     this.box = element(
@@ -159,8 +180,8 @@ class StopPart {
       { class: "part" },
       this.title,
       this.none,
-      this.fields,
       element("div", { class: "row" }, this.add, this.remove),
+      this.fields,
     );
   }
 
