@@ -40,11 +40,20 @@ _LARGEST = 2**30
 
 
 def cache_folder() -> Path:
-    """Folder of the tables."""
+    """Folder of the tables.
+
+    Raises
+    ------
+    OSError
+        If nobody knows the home of this user, as in some containers.
+    """
     from platformdirs import user_cache_path
 
     named = os.environ.get("FIVEROUTE_CACHE")
-    return (Path(named) if named else user_cache_path("fiveroute")) / "legs"
+    try:
+        return (Path(named) if named else user_cache_path("fiveroute")) / "legs"
+    except RuntimeError as error:
+        raise OSError(str(error)) from None
 
 
 def table_key(waters: Waters, points: NDArray[np.float64], source: str, seed: int) -> str:
@@ -70,13 +79,13 @@ def table_key(waters: Waters, points: NDArray[np.float64], source: str, seed: in
 
 def kept_table(key: str) -> LegTable | None:
     """The table of a key, if it is kept."""
-    file = cache_folder() / f"{key}.npz"
     table = None
-    with suppress(*_SPOILT), file.open("rb") as stream, zipfile.ZipFile(stream) as archive:
-        if max(part.file_size for part in archive.infolist()) <= _LARGEST:
-            table = _read(stream, key)
-    if table is not None:
-        with suppress(OSError):
+    with suppress(*_SPOILT):
+        file = cache_folder() / f"{key}.npz"
+        with file.open("rb") as stream, zipfile.ZipFile(stream) as archive:
+            if max(part.file_size for part in archive.infolist()) <= _LARGEST:
+                table = _read(stream, key)
+        if table is not None:
             file.touch()
     return table
 
@@ -110,10 +119,8 @@ def _is_sound(table: LegTable) -> bool:
 
 def keep_table(key: str, table: LegTable) -> None:
     """Keep a table; a folder that cannot be written keeps none."""
-    folder = cache_folder()
-    if folder.parts[0] == "~":  # nobody knows the home of this user
-        return
     with suppress(OSError):
+        folder = cache_folder()
         folder.mkdir(parents=True, exist_ok=True)
         with written_whole(folder / f"{key}.npz") as draft:
             np.savez_compressed(
