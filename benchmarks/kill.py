@@ -16,6 +16,7 @@ import io
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import sys
@@ -93,9 +94,9 @@ def started(arguments: list[str], folder: Path) -> int:
 
 
 def seen(folder: Path, inputs: frozenset[str]) -> frozenset[str]:
-    """Files of a command, without its inputs and drafts."""
+    """Files of a command, without its inputs, its drafts and the journal of its runs."""
     names = (path.relative_to(folder) for path in folder.rglob("*") if path.is_file())
-    shown = (name for name in names if not any(part.startswith(".") for part in name.parts))
+    shown = (name for name in names if not re.search(r"(^|/)\.|\.run\.jsonl$", str(name)))
     return frozenset(map(str, shown)) - inputs
 
 

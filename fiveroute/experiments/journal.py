@@ -36,7 +36,7 @@ class Journal:
     def runs(self) -> list[RunResult]:
         """The runs that are kept whole, in their order, each once."""
         try:
-            lines = self.path.read_text(encoding="utf-8").splitlines()
+            lines = self.path.read_text(encoding="utf-8", errors="replace").splitlines()
         except OSError:
             return []
         known = {run.run: run for run in map(_run, lines) if run is not None}
@@ -61,17 +61,17 @@ def _document(run: RunResult) -> dict[str, Any]:
 
 
 def _run(line: str) -> RunResult | None:
-    """The run of a line; None for an empty line or half a line."""
+    """The run of a line; None for an empty line, half a line, or one that is no run."""
     try:
         rest = json.loads(line)
-    except ValueError:
+        return RunResult(
+            arrivals=tuple(math.inf if t is None else float(t) for t in rest.pop("arrivals")),
+            events=tuple(Event(*event) for event in rest.pop("events")),
+            legs=tuple(tuple(map(tuple, legs)) for legs in rest.pop("legs")),
+            **rest,
+        )
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None
-    return RunResult(
-        arrivals=tuple(math.inf if t is None else t for t in rest.pop("arrivals")),
-        events=tuple(Event(*event) for event in rest.pop("events")),
-        legs=tuple(tuple(map(tuple, legs)) for legs in rest.pop("legs")),
-        **rest,
-    )
 
 
 def _plain(number: Any) -> Any:

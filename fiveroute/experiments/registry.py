@@ -121,7 +121,7 @@ def _read(path: Path) -> dict[str, Any] | None:
     """What a registry says; None where there is none, or none that can be read."""
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return None
     return document if isinstance(document, dict) else None
 

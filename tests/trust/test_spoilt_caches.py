@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from fiveroute.experiments.gap_row import GapRow
+from fiveroute.experiments.journal import Journal
 from fiveroute.experiments.kept_rows import KeptRows
 from fiveroute.paths import leg_cache
 from fiveroute.paths.leg_cache import cache_folder, keep_table, kept_table
@@ -164,3 +165,11 @@ def test_spoilt_kernels_are_compiled_anew(tmp_path: Path) -> None:
         file.write_bytes(content)
         assert _thrice(tmp_path) == (6.0, False)
     assert _thrice(tmp_path) == (6.0, True)
+
+
+@pytest.mark.parametrize(
+    "line", [b"[]", b"1", b"{}", b"[" * 100_000, b"\xff", b'{"arrivals": ["x"]}', b'{"run": {}}']
+)
+def test_a_line_of_a_journal_that_is_none_is_sailed_anew(line: bytes, tmp_path: Path) -> None:
+    (tmp_path / "x.run.jsonl").write_bytes(line + b"\n")
+    assert Journal(tmp_path / "x.run.jsonl").runs() == []
