@@ -9,7 +9,7 @@ import pytest
 SOURCE = Path(__file__).parents[2] / "benchmarks" / "kill.py"
 
 
-@pytest.mark.parametrize("command", ["generate", "export-folder", "simulate"])
+@pytest.mark.parametrize("command", ["generate", "export-folder"])
 def test_a_killed_command_leaves_nothing_half(command: str) -> None:
     if not SOURCE.is_file():
         pytest.skip("the long run is not shipped here")

@@ -129,7 +129,7 @@ def test_a_row_stays_in_its_folder(label: str, tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["rows"]
 
 
-KERNEL = """
+KERNELS = """
 import sys
 from pathlib import Path
 sys.path.insert(0, {root!r})
@@ -138,33 +138,35 @@ kernels._PACKAGE = Path(sys.argv[1])
 @kernels.kernel
 def thrice(x):
     return 3.0 * x
-print(thrice(2.0), dict(thrice.stats.cache_hits) != {{}})
+@kernels.kernel
+def half(x):
+    return 0.5 * x
+print(thrice(2.0), half(2.0), *(len(kept.stats.cache_hits) for kept in (thrice, half)))
 """
 
 
-def _thrice(folder: Path) -> tuple[float, bool]:
-    """Result of a kernel that is kept in a folder, and whether it came from there."""
+def _results(folder: Path) -> list[str]:
+    """Results of two kernels that are kept in a folder, and how many came from there."""
     script = folder / "script.py"
-    if not script.exists():
-        script.write_text(KERNEL.format(root=str(Path(__file__).parents[2])))
+    script.write_text(KERNELS.format(root=str(Path(__file__).parents[2])))
     done = subprocess.run(
         [sys.executable, str(script), str(folder)], capture_output=True, text=True, check=True
     )
     assert done.stderr == ""
-    value, hit = done.stdout.split()
-    return float(value), hit == "True"
+    return done.stdout.split()
 
 
 def test_spoilt_kernels_are_compiled_anew(tmp_path: Path) -> None:
-    assert _thrice(tmp_path) == (6.0, False)
-    (data,) = tmp_path.rglob("*.nbc")
-    (index,) = tmp_path.rglob("*.nbi")
-    middle = bytearray(data.read_bytes())
-    middle[len(middle) // 2] ^= 1
-    for file, content in ((data, bytes(middle)), (index, b"")):
-        file.write_bytes(content)
-        assert _thrice(tmp_path) == (6.0, False)
-    assert _thrice(tmp_path) == (6.0, True)
+    """A bit of the one kernel is another one, the index of the other is empty."""
+    assert _results(tmp_path) == ["6.0", "1.0", "0", "0"]
+    (data,) = tmp_path.rglob("*thrice*.nbc")
+    (index,) = tmp_path.rglob("*half*.nbi")
+    spoilt = bytearray(data.read_bytes())
+    spoilt[len(spoilt) // 2] ^= 1
+    data.write_bytes(bytes(spoilt))
+    index.write_bytes(b"")
+    assert _results(tmp_path) == ["6.0", "1.0", "0", "0"]
+    assert _results(tmp_path) == ["6.0", "1.0", "1", "1"]
 
 
 @pytest.mark.parametrize(
