@@ -137,18 +137,17 @@ class Job:
             progress=self._hear,
             folder=self.folder,
         )
-        self._note(answer.result.seconds, answer.objective, answer.bound)
+        self._note(answer.objective, answer.bound)
         return answer.filed()
 
     def _hear(self, progress: Progress) -> None:
         self.message = progress.message or self.message
-        is_plan = progress.objective is not None and progress.message
-        self._note(progress.seconds, progress.objective if is_plan else None, progress.bound)
+        self._note(progress.objective, progress.bound)
 
-    def _note(self, seconds: float, objective: float | None, bound: float | None) -> None:
+    def _note(self, objective: float | None, bound: float | None) -> None:
         """Keep the best plan and the least bound."""
         before = self.objective, self.bound
-        self.seconds = max(self.seconds, seconds)
+        self.seconds = self.clock.seconds
         if objective is not None:
             self.objective = max(objective, self.objective or 0.0)
         if bound is not None:

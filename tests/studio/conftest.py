@@ -110,16 +110,22 @@ class Caller:
     def planned(self, **wish: object) -> dict[str, Any]:
         """The state after planning anew."""
         self.write("/api/plan", wish)
-        until(lambda: self.read("/api/progress")["job"]["state"] != "running")
+        wait_until(lambda: self.read("/api/progress")["job"]["state"] != "running")
         return self.read()
 
 
-def until(holds: Callable[[], bool], seconds: float = 120.0) -> None:
+def wait_until(holds: Callable[[], bool]) -> None:
     """Wait until something holds."""
-    end = time.monotonic() + seconds
+    end = time.monotonic() + 120.0
     while not holds():
         assert time.monotonic() < end, "it never came true"
         time.sleep(0.02)
+
+
+@pytest.fixture
+def until() -> Callable[[Callable[[], bool]], None]:
+    """Wait until something holds."""
+    return wait_until
 
 
 @pytest.fixture

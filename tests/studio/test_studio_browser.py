@@ -92,7 +92,7 @@ def test_a_day_at_the_studio(browser: Any, studio: Studio, mission_path: Path) -
     visit.fit(studio)
     assert plan(visit) == "unknown"
     page.select_option("#bound-kind", "exact")
-    assert plan(visit) == "0 (optimal)"
+    assert plan(visit) == "0 (proved)"
     visit.expect("#gap-words").to_contain_text("5 planned of 9; no plan can collect more than 5")
 
     # Drag the far node near: the draft has no bound until it is planned.

@@ -1,7 +1,6 @@
 """Editing, planning, undoing, saving, through the server."""
 
 import json
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -15,17 +14,11 @@ from fiveroute.studio.requests import answer
 from fiveroute.studio.session import Session
 from fiveroute.verdict import judge
 
+Until = Callable[[Callable[[], bool]], None]
+
 
 def gap(state: dict[str, Any]) -> float:
     return float(state["view"]["scenes"][0]["gap"])
-
-
-def until(holds: Callable[[], bool]) -> None:
-    """Wait until something holds."""
-    end = time.monotonic() + 120.0
-    while not holds():
-        assert time.monotonic() < end, "it never came true"
-        time.sleep(0.02)
 
 
 def test_edit_plan_edit_undo(caller: Any) -> None:
@@ -111,7 +104,7 @@ def test_an_edit_of_what_has_changed_meanwhile_is_refused(caller: Any) -> None:
     assert "in another window" in reply.doc["error"]
 
 
-def test_planning_can_be_stopped(caller: Any) -> None:
+def test_planning_can_be_stopped(caller: Any, until: Until) -> None:
     """A mission that takes long to prove; what is found so far is kept."""
     for k in range(40):
         caller.studio.session.edit(
@@ -201,7 +194,7 @@ def test_export_goes_into_the_folder(caller: Any, tmp_path: Path) -> None:
     assert "is no plain file name" in out.doc["error"]
 
 
-def test_unsafe_exports_are_refused(mission_path: Path) -> None:
+def test_unsafe_exports_are_refused(mission_path: Path, until: Until) -> None:
     """Straight lines through an obstacle."""
     document = json.loads(mission_path.read_text(encoding="utf-8"))
     document["ocean"] = {"obstacles": [{"x": 1500.0, "y": -100.0, "radius": 120.0}]}

@@ -8,10 +8,13 @@ function gapShares(objective, bound, total) {
   return { collected, open: most - collected, most };
 }
 
-function gapWords(gap) {
+function gapWords(gap, status) {
   if (gap === null || gap === undefined) return "unknown";
-  return gap <= 1e-9 ? "0 (optimal)" : percent(gap);
+  return status === "optimal" ? "0 (proved)" : percent(gap);
 }
+
+/** Seconds of a search that are worth a picture of its course. */
+const SHORTEST = 0.5;
 
 class GapView {
   constructor() {
@@ -31,9 +34,9 @@ class GapView {
     );
   }
 
-  show({ objective, bound, gap, total }) {
+  show({ objective, bound, gap, total, status }) {
     const shares = gapShares(objective, bound, total);
-    this.value.textContent = gapWords(gap);
+    this.value.textContent = gapWords(gap, status);
     this.filled.style.width = `${100 * shares.collected}%`;
     this.open.style.width = `${100 * shares.open}%`;
     const most = bound === null ? "no bound yet" : `no plan can collect more than ${amount(bound)}`;
@@ -42,16 +45,15 @@ class GapView {
     this.bar.setAttribute("aria-label", this.words.textContent);
   }
 
-  /** Data of the best plan and the bound over the seconds of the search. */
+  /** Data of the best plan and the bound over the seconds of the search, from its first plan on. */
   drawCourse(job, total, theme) {
-    this.canvas.hidden = !job || job.points.length < 2;
+    const points = job ? job.points : [];
+    const first = points.find((point) => point[1] !== null);
+    const [begin, end] = first ? [first[0], job.seconds] : [0, 0];
+    this.canvas.hidden = points.length < 2 || end - begin < SHORTEST;
     if (this.canvas.hidden) return;
     const { context, width, height } = sized(this.canvas);
     context.clearRect(0, 0, width, height);
-    const points = job.points;
-    const first = points.find((point) => point[1] !== null);
-    const begin = first ? first[0] : 0;
-    const end = Math.max(job.seconds, begin + 0.1);
     const known = points.map((point) => point[1]).filter((value) => value !== null);
     const low = known.length ? Math.min(...known) : 0;
     const high = Math.max(total, low + 1e-9);

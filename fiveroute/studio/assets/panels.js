@@ -76,7 +76,7 @@ class PlanPart {
     const { total } = scene;
     const now = isRunning
       ? job
-      : { objective: scene.routes.length ? scene.objective : null, bound: scene.bound, gap: scene.gap };
+      : { objective: scene.routes.length ? scene.objective : null, bound: scene.bound, gap: scene.gap, status: scene.status };
     this.gap.show({ ...now, total });
     this.gap.drawCourse(job, total, theme);
   }
