@@ -193,18 +193,18 @@ def _fineness(cells: CellGrid) -> float:
     if not (cells.spacing > 0.0 and area > 0.0):
         raise InputError("has cells in one place or on one line; copy the file again", field="grid")
     points = area / cells.spacing**2
-    if points > 1e6 + 100.0 * cells.x.size:
-        raise InputError(
-            f"takes {points:.1e} points for {cells.x.size} cells; some lie far from the others, "
-            "copy the file again",
-            field="grid",
-        )
     coarse = len(cells.w) * points
     if coarse * _FINER[0] ** 2 > _TOO_MANY:
         raise InputError(
             f"takes {coarse * _FINER[0] ** 2:.1e} velocities, more than {_TOO_MANY:.0e}; "
             "read a smaller surrounding or cut times out of the file",
             field="reach",
+        )
+    if points > 1e6 + 100.0 * cells.x.size:
+        raise InputError(
+            f"takes {points:.1e} points for {cells.x.size} cells; some lie far from the others, "
+            "copy the file again",
+            field="grid",
         )
     return float(np.clip(math.floor(math.sqrt(_MANY / coarse)), *_FINER))
 
