@@ -200,9 +200,10 @@ class Program:
         """Solve within what is left of the clock; a linear programme starts from its last basis."""
         outcome = self._run()
         if outcome is None:  # infeasible or unbounded: only presolve leaves that open
+            _, presolve = self.highs.getOptionValue("presolve")
             self.set("presolve", "off")
             outcome = self._run()
-            self.set("presolve", "choose")
+            self.set("presolve", presolve)
         return outcome or Outcome.STOPPED
 
     @property

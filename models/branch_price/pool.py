@@ -22,7 +22,7 @@ from fiveroute.models.common_divisor import common_divisor
 from fiveroute.models.highs import Outcome, Program
 from fiveroute.models.incumbent import Incumbent
 from fiveroute.models.unreduced import UNREDUCED
-from fiveroute.result import PROOF_TOLERANCE
+from fiveroute.result import PROOF_TOLERANCE, is_closed
 from fiveroute.routes import Plan, Route
 
 __all__ = ["BETTER", "Pool", "plan_of", "sail_best", "stops_of", "taking"]
@@ -159,8 +159,10 @@ def sail_best(
             choice.demand(before + BETTER * max(1.0, before))
         if not choice.solve():
             return False
-        if choice.is_empty or not roads.toll:
+        if choice.is_empty:
             return True
+        if not roads.toll:
+            return choice.is_closed
         if incumbent.objective <= before:
             return False
 
@@ -178,7 +180,7 @@ class _Choice:
     ) -> None:
         self.pool, self.roads, self.incumbent, self.on_bound = pool, roads, incumbent, on_bound
         self.unit = common_divisor(roads.profit) or float(roads.profit.max()) or 1.0
-        self.is_empty = False
+        self.is_empty, self.gap = False, clock.limits.gap
         self.program = Program(clock, maximise=True, on_progress=self._tell, on_solution=self._note)
         above = roads.routes[::-1].cumsum()[::-1]
         needs = csr_array(pool.classes >= np.arange(len(above))[:, None], dtype=np.float64)
@@ -197,7 +199,7 @@ class _Choice:
             np.concatenate([[np.inf], np.ones(roads.problem.n), above]),
         )
         self.program.require_integers(True)
-        self.program.set("mip_rel_gap", clock.limits.gap)
+        self.program.set("mip_rel_gap", self.gap)
         self.program.set("mip_abs_gap", 0.0)
 
     def demand(self, data: float) -> None:
@@ -215,6 +217,13 @@ class _Choice:
         accepted = not self.program.has_solution or self._offer(self.program.values)
         self._tell(None, self.program.bound)
         return outcome is Outcome.OPTIMAL and accepted
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether the last plan is the best, not only as good as the limits ask."""
+        if self.gap <= 0.0:
+            return True
+        return is_closed(self.program.objective * self.unit, self.program.bound * self.unit)
 
     def _offer(self, values: Floats) -> bool:
         times = np.rint(values).astype(np.int64)

@@ -97,6 +97,15 @@ def test_a_ray_without_end_is_unbounded() -> None:
     assert program.solve() is Outcome.UNBOUNDED
 
 
+def test_a_second_look_leaves_the_options_as_they_are() -> None:
+    program = Program(Limits().start(), maximise=True)
+    program.set("presolve", "on")
+    program.add_columns([1.0, 1.0], 0.0, np.inf)
+    program.add_rows(csr_array(np.array([[1.0, -1.0]])), -1.0, 1.0)
+    assert program.solve() is Outcome.UNBOUNDED
+    assert program.highs.getOptionValue("presolve")[1] == "on"
+
+
 def test_an_expired_clock_stops_at_once_with_a_bound() -> None:
     program = Program(Limits(time=0.0).start(), maximise=True)
     _knapsack(program, 60, 30)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from fiveroute.limits import Limits
 from fiveroute.models.branch_price.pool import Pool, plan_of, sail_best
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.models.incumbent import Incumbent
@@ -54,3 +55,18 @@ def test_long_routes_go_to_large_budgets() -> None:
     assert plan is not None
     assert plan.routes == ((), (2, 3), (1,))
     assert plan_of(roads, [(1,)] * 4) is None
+
+
+def test_a_plan_within_the_gap_is_no_proof() -> None:
+    rng, nodes = np.random.default_rng(0), 60
+    travel = np.ones((nodes + 2, nodes + 2)) - np.eye(nodes + 2)
+    data = [0.0, *rng.uniform(1.0, 2.0, nodes), 0.0]
+    large = TeamOrienteering(travel, np.zeros(nodes + 2), data, [6.0] * 12)
+    roads = Roads.of(Network.of(large))
+    routes = [tuple((rng.permutation(nodes)[:5] + 1).tolist()) for _ in range(600)]
+    incumbent = Incumbent(large, "pool", Limits(gap=0.3))
+    bounds: list[float] = []
+    pool = Pool.of(roads, routes)
+    is_settled = sail_best(pool, roads, incumbent, incumbent.clock, on_bound=bounds.append)
+    assert min(bounds) > incumbent.objective + 1e-3
+    assert not is_settled
