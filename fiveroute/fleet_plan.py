@@ -58,6 +58,11 @@ class FleetPlan:
     result: Result
     pipeline: MissionPlan | None = None
 
+    @classmethod
+    def of(cls, voyage: Voyage, planned: MissionPlan) -> FleetPlan:
+        """What tiers 1 and 2 came to on the legs of a voyage."""
+        return cls(voyage, planned.problem, _known(voyage, planned.result), planned)
+
     @property
     def instance(self) -> Instance:
         """The mission as it was stated."""
@@ -398,7 +403,7 @@ def plan(
         workers=workers,
         progress=progress,
     )
-    return FleetPlan(voyage, planned.problem, _known(voyage, planned.result), planned)
+    return FleetPlan.of(voyage, planned)
 
 
 def solve(

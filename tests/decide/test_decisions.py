@@ -40,6 +40,13 @@ def test_more_auvs_collect_no_less(mission: Instance) -> None:
     sweep_figure(sweep)
 
 
+def test_nothing_is_proved_where_legs_were_left_open(mission: Instance) -> None:
+    voyage = replace(Voyage.straight(mission), is_complete=False)
+    (row,) = sweep_fleet_sizes(voyage, [3], bound="exact").rows
+    assert row["status"] == "feasible"
+    assert row["bound"] is None
+
+
 def test_a_fleet_that_is_stated_one_by_one_has_its_size(mission: Instance) -> None:
     fleet = replace(mission.fleet, endurance=(9000.0, 8000.0))
     with pytest.raises(InputError, match=r"^fleet.endurance: states 2 AUVs"):
