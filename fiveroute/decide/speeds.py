@@ -131,9 +131,14 @@ def sweep_speeds(
             "is unlimited, so that no battery follows from it; state the watt-hours",
             field="fleet.endurance",
         )
-    voyage = sail(instance, folder=folder, straight_lines=straight_lines, seed=seed)
-    rng = np.random.default_rng(seed)
-    size = fleet_size or fleet_size_of(voyage.instance, voyage.travel, rng=rng)
+    clock = (limits or Limits()).start()
+    size = fleet_size or instance.fleet_size
+    if size is None:
+        voyage = sail(
+            instance, folder=folder, straight_lines=straight_lines, limits=clock.limits, seed=seed
+        )
+        rng = np.random.default_rng(seed)
+        size = fleet_size_of(voyage.instance, voyage.travel, rng=rng)
 
     def row(speed: float, limits: Limits) -> Row:
         endurance = [power.endurance(each, speed) for each in batteries.tolist()]
@@ -156,7 +161,6 @@ def sweep_speeds(
             **figures(planned),
         }
 
-    clock = (limits or Limits()).start()
     sweep = vary(instance.name, "speed", "m/s", speeds, row, clock=clock, progress=progress)
     best = sweep.best("objective")
     return sweep if best is None else sweep.marking(best["speed"], "collects most")
