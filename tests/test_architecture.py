@@ -75,12 +75,67 @@ FORBIDDEN = [  # (who, whom, why)
         ("fiveroute.cli", "fiveroute.experiments"),
         "a tier does not know who calls it",
     ),
-    (("fiveroute.experiments", "fiveroute.formats"), ("fiveroute.cli",), "nothing imports cli"),
+    (
+        (
+            "fiveroute.models",
+            "fiveroute.heuristics",
+            "fiveroute.ocean",
+            "fiveroute.paths",
+            "fiveroute.sea",
+            "fiveroute.tiers",
+            "fiveroute.vehicle",
+            "fiveroute.mission",
+            "fiveroute.verdict",
+            "fiveroute.check",
+            "fiveroute.check_paths",
+        ),
+        (
+            "fiveroute.decide",
+            "fiveroute.fleet_plan",
+            "fiveroute.fleet_runs",
+            "fiveroute.peers",
+            "fiveroute.plots",
+            "fiveroute.studio",
+            "fiveroute.vehicle_files",
+            "fiveroute.view",
+        ),
+        "what plans, sails and judges does not know who shows, asks or exports",
+    ),
+    (
+        ("fiveroute.peers",),
+        ("fiveroute.heuristics", "fiveroute.mission", "fiveroute.models", "fiveroute.tiers"),
+        "peers plan by themselves",
+    ),
+    (
+        ("fiveroute.models", "fiveroute.heuristics", "fiveroute.exact"),
+        ("fiveroute.peers",),
+        "nothing is built on peers",
+    ),
+    (
+        ("fiveroute.view", "fiveroute.vehicle_files"),
+        ("fiveroute.decide", "fiveroute.experiments", "fiveroute.studio"),
+        "pages and files are of plans and runs, whoever made them",
+    ),
+    (
+        (
+            "fiveroute.check",
+            "fiveroute.check_paths",
+            "fiveroute.crossings",
+        ),
+        ("fiveroute.heuristics", "fiveroute.mission", "fiveroute.models", "fiveroute.tiers"),
+        "the judge shares nothing with the planners",
+    ),
 ]
 
 
 def below(name: str, package: str) -> bool:
     return name == package or name.startswith(package + ".")
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_nothing_imports_the_command_line(module: str) -> None:
+    if not below(module, "fiveroute.cli") and module != "fiveroute.__main__":
+        assert not any(below(name, "fiveroute.cli") for name in imports(MODULES[module]))
 
 
 @pytest.mark.parametrize("module", MODULES)
