@@ -115,7 +115,9 @@ def prepare(
     else:
         rng = np.random.default_rng(seed)
         size = fleet_size or fleet_size_of(voyage.instance, voyage.travel, rng=rng)
-    theatre = Theatre.of(voyage.instance, size, travel=voyage.travel)
+    theatre = Theatre.of(
+        voyage.instance, size, travel=voyage.travel, out_of_reach=voyage.out_of_reach
+    )
     if actuation == "vehicle":
         model = VehicleModel.of(voyage, folder or Path())
         theatre = theatre.sailed_by(model, seed, limits=clock.rest())

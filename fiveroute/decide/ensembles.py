@@ -143,6 +143,8 @@ def plan_against_ensemble(
     if not 0.0 < alpha <= 1.0:
         raise InputError("must be above 0 and at most 1", field="alpha", value=alpha)
     clock = (limits or Limits()).start()
+    total = sum(node.data for node in voyage.mission.nodes)
+    within_reach = 1.0 - voyage.out_of_reach / total if total > 0.0 else 1.0
     training = np.array(times[: len(times) - held_out])
     wanted = _wanted(voyage, training)
     candidates: list[Candidate] = []
@@ -159,7 +161,8 @@ def plan_against_ensemble(
         if planned.result.plan is None:
             continue
         rates = [
-            recourse_completion(planned.problem, planned.result.plan, travel) for travel in times
+            within_reach * recourse_completion(planned.problem, planned.result.plan, travel)
+            for travel in times
         ]
         split = len(training)
         candidates.append(

@@ -61,7 +61,9 @@ def sweep_reserves(
     """
     rng = np.random.default_rng(seed)
     size = fleet_size or fleet_size_of(voyage.instance, voyage.travel, rng=rng)
-    theatre = Theatre.of(voyage.instance, size, travel=voyage.travel)
+    theatre = Theatre.of(
+        voyage.instance, size, travel=voyage.travel, out_of_reach=voyage.out_of_reach
+    )
 
     def row(reserve: float, limits: Limits) -> Row:
         routes = departure_plan(theatre, planner, reserve=reserve, seed=seed, limits=limits)

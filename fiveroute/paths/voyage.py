@@ -47,3 +47,11 @@ class Voyage:
     def travel(self) -> NDArray[np.float64] | None:
         """Leg times in seconds, shape (n + 2, n + 2); None for straight lines."""
         return None if self.legs is None else self.legs.times
+
+    @property
+    def out_of_reach(self) -> float:
+        """Data of the nodes that cannot be reached; completion rates count them."""
+        mission, instance = (
+            sum(node.data for node in each.nodes) for each in (self.mission, self.instance)
+        )
+        return max(mission - instance, 0.0)

@@ -246,7 +246,7 @@ def simulate_fleet(
             progress(Progress(clock.seconds, message=f"run {len(done)} of {runs}"))
         if clock.expired:
             break
-    planned = plan.objective(theatre.problem) / (theatre.problem.total_profit or 1.0)
+    planned = theatre.completion(plan.objective(theatre.problem))
     return SimulationResult(
         planner, theatre.problem.fleet_size, planned, tuple(done), clock.seconds
     )
@@ -279,7 +279,7 @@ def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool, gap: bool) ->
             arrivals[event.auv] = event.t
     result = RunResult(
         run,
-        collected / (problem.total_profit or 1.0),
+        sea.theatre.completion(collected),
         tuple(arrivals),
         _late(sea.theatre, arrivals),
         len(nodes) - len(set(nodes)),
@@ -320,7 +320,7 @@ def _best(theatre: Theatre, voyage: Voyage, luck: Luck) -> float:
         if event.kind == "collect" and event.node is not None:
             routes[event.auv].append(event.node)
     real, plan = clairvoyant_plan(theatre.problem, luck, Plan.of(routes))
-    return plan.objective(real) / (real.total_profit or 1.0)
+    return theatre.completion(plan.objective(real))
 
 
 def _crew(sea: _Sea, voyage: Voyage, plan: Plan, planner: str) -> Crew:
@@ -360,7 +360,7 @@ def _run_alone(
         data, arrival = sail_alone(theatre.law, key, view, stops, budget, fail)
         collected += data
         arrivals.append(arrival)
-    completion = collected / (problem.total_profit or 1.0)
+    completion = theatre.completion(collected)
     return RunResult(luck.run, completion, tuple(arrivals), _late(theatre, arrivals))
 
 

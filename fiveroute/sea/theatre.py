@@ -36,6 +36,8 @@ class Theatre:
         Lengths of the legs in kilometres, shape (n + 2, n + 2).
     model
         The vehicle that sails the legs; None where they take what the law says.
+    out_of_reach
+        Data of nodes that cannot be reached, which completion rates count as well.
     """
 
     problem: TeamOrienteering
@@ -43,6 +45,7 @@ class Theatre:
     points: NDArray[np.float64]
     lengths_km: NDArray[np.float64]
     model: VehicleModel | None = None
+    out_of_reach: float = 0.0
 
     @classmethod
     def of(
@@ -52,6 +55,7 @@ class Theatre:
         *,
         travel: NDArray[np.float64] | None = None,
         uncertainty: Uncertainty | None = None,
+        out_of_reach: float = 0.0,
     ) -> Theatre:
         """The theatre of an instance.
 
@@ -66,11 +70,17 @@ class Theatre:
             lines in still water.
         uncertainty
             The terms of (12); None takes those of the instance, see `uncertainty_of`.
+        out_of_reach
+            Data of nodes of the mission that the instance does not name.
         """
         problem = instance.problem(fleet_size, travel)
         lengths_km = instance.travel * (instance.fleet.speed / 1000.0)
         law = leg_law(problem.travel, lengths_km, uncertainty or uncertainty_of(instance))
-        return cls(problem, law, instance.points, lengths_km)
+        return cls(problem, law, instance.points, lengths_km, out_of_reach=out_of_reach)
+
+    def completion(self, collected: float) -> float:
+        """Completion rate theta, (31), of some collected data."""
+        return collected / (self.problem.total_profit + self.out_of_reach or 1.0)
 
     def sailed_by(
         self, model: VehicleModel, seed: int = 0, *, limits: Limits | None = None

@@ -47,6 +47,18 @@ def test_nothing_is_proved_where_legs_were_left_open(mission: Instance) -> None:
     assert row["bound"] is None
 
 
+def test_completion_at_sea_counts_nodes_out_of_reach(mission: Instance) -> None:
+    near = replace(mission, nodes=mission.nodes[:5])
+    lost = tuple(node.id for node in mission.nodes[5:])
+    share = sum(node.data for node in near.nodes) / sum(node.data for node in mission.nodes)
+    rates = [
+        sweep_reserves(voyage, [1.0], fleet_size=2, runs=2).rows[0]["completion_rate"]
+        for voyage in (Voyage.straight(near), Voyage(mission, near, unreachable=lost))
+    ]
+    assert isinstance(rates[0], float)
+    assert rates[1] == pytest.approx(share * rates[0])
+
+
 def test_a_fleet_that_is_stated_one_by_one_has_its_size(mission: Instance) -> None:
     fleet = replace(mission.fleet, endurance=(9000.0, 8000.0))
     with pytest.raises(InputError, match=r"^fleet.endurance: states 2 AUVs"):
