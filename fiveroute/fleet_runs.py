@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from fiveroute.errors import InputError
 from fiveroute.fleet_plan import FleetPlan, sail
 from fiveroute.instance import Instance
 from fiveroute.limits import Limits, ProgressCallback
@@ -111,6 +112,12 @@ def prepare(
     )
     routes = None if filed is None else _routes(filed, voyage)
     if routes is not None:
+        if fleet_size not in (None, len(routes.routes)):
+            raise InputError(
+                f"the plan has {len(routes.routes)} AUVs; leave the size out, or plan anew",
+                field="fleet_size",
+                value=fleet_size,
+            )
         size = len(routes.routes)
     else:
         rng = np.random.default_rng(seed)

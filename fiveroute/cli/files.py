@@ -5,15 +5,25 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
+from fiveroute.errors import InputError
 from fiveroute.formats.files import make_folder, require_writable
 
-__all__ = ["require_folder", "require_output"]
+__all__ = ["require_folder", "require_output", "require_outputs"]
 
 
 def require_output(path: Path | None, force: bool) -> None:
     """Refuse an output that could not be written, before any time is spent."""
     if path is not None:
         require_writable(path, force)
+
+
+def require_outputs(*paths: Path | None, force: bool) -> None:
+    """Refuse outputs that could not be written, or of which one would replace another."""
+    named = [path for path in paths if path is not None]
+    for k, path in enumerate(named):
+        require_output(path, force)
+        if path.resolve() in [other.resolve() for other in named[:k]]:
+            raise InputError("is named for two outputs; give each a file of its own", file=path)
 
 
 def require_folder(folder: Path | None, names: Iterable[str], force: bool) -> None:

@@ -175,12 +175,11 @@ class _Files:
 
     def check(self) -> None:
         """Refuse what could not be written, before any time is spent."""
-        from fiveroute.cli.files import require_output
+        from fiveroute.cli.files import require_outputs
         from fiveroute.experiments.run_table import require_table
         from fiveroute.experiments.track_file import require_tracks
 
-        for path in (self.events, self.output):
-            require_output(path, self.force)
+        require_outputs(self.events, self.tracks, self.output, force=self.force)
         require_tracks(self.tracks, self.force)
         if self.output is not None:
             require_table(self.output)

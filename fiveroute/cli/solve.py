@@ -64,15 +64,14 @@ def command(
 ) -> None:
     """Best plan for INSTANCE with a proof, or the best bound in the time given."""
     from fiveroute.cli.certifying import write_certificate
-    from fiveroute.cli.files import require_output
+    from fiveroute.cli.files import require_outputs
     from fiveroute.cli.running import run
     from fiveroute.cli.sailing import answer_plan
     from fiveroute.fleet_plan import solve
     from fiveroute.formats import read_instance
     from fiveroute.limits import Limits
 
-    for path in (output, certificate):
-        require_output(path, force)
+    require_outputs(output, certificate, force=force)
     mission = read_instance(instance)
     outcome = run(
         lambda limits, progress: solve(

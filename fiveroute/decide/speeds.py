@@ -119,8 +119,13 @@ def sweep_speeds(
     Raises
     ------
     InputError
-        If the endurance is unlimited and no battery is given.
+        If a speed or the battery is not positive, or the endurance is unlimited and no battery
+        is given.
     """
+    for name, values in (("speeds", speeds), ("battery", [] if battery is None else [battery])):
+        for value in values:
+            if not 0.0 < value < np.inf:
+                raise InputError("must be finite and above 0", field=name, value=value)
     power = power or PowerModel()
     stated = np.atleast_1d(np.array(instance.fleet.endurance or np.nan, dtype=np.float64))
     batteries = stated * power.power(instance.fleet.speed) / _JOULE

@@ -88,7 +88,7 @@ class GapRow:
         Best value known: of planner, exact method, peers and reference.
     gap
         (bound - value) / value of the planner's plan, or of the exact method's if that runs
-        alone; None without both.
+        alone; 0 where the bound proves it, None without both.
     status
         How well that plan is known: ``optimal`` where the bound proves it.
     seconds
@@ -260,6 +260,7 @@ def _row(
     shown = planned or exact
     assert shown is not None, "planner or exact method must run"
     bound = None if exact is None else exact.bound
+    status = _status(shown, bound)
     return GapRow(
         instance=voyage.instance.name,
         nodes=problem.n,
@@ -267,8 +268,8 @@ def _row(
         heuristic=None if planned is None else planned.objective,
         bound=bound,
         best_known=None,
-        gap=optimality_gap(shown.objective, bound),
-        status=_status(shown, bound).value,
+        gap=0.0 if status is Status.OPTIMAL else optimality_gap(shown.objective, bound),
+        status=status.value,
         seconds=shown.seconds,
         exact=None if exact is None else exact.objective,
         exact_status=None if exact is None else exact.status.value,

@@ -55,6 +55,15 @@ def test_a_filed_plan_is_carried_out(call: Any, tiny: Path, tmp_path: Path) -> N
     assert answer.doc["completion"]["mean"] == pytest.approx(collected / 4 / 1.75)
 
 
+def test_a_plan_has_its_own_fleet_size(call: Any, tiny: Path, tmp_path: Path) -> None:
+    plan = tmp_path / "plan.json"
+    call("plan", tiny, "--output", plan)
+    assert call("simulate", tiny, plan, "--runs", 1, "--fleet-size", 1).code == 0
+    answer = call("simulate", tiny, plan, "--runs", 1, "--fleet-size", 2)
+    assert answer.code == 2
+    assert "the plan has 1 AUVs" in answer.err
+
+
 def test_the_same_seed_gives_the_same_numbers(call: Any, tiny: Path, tmp_path: Path) -> None:
     tables = []
     for workers in (1, 2):

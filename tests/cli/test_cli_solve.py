@@ -77,6 +77,14 @@ def test_an_existing_plan_is_not_overwritten_unasked(call: Any, tiny: Path) -> N
     assert call("solve", tiny, "--output", plan, "--force").code == 0
 
 
+def test_plan_and_certificate_want_a_file_each(call: Any, tiny: Path, tmp_path: Path) -> None:
+    both = tmp_path / "both.json"
+    answer = call("solve", tiny, "--output", both, "--certificate", both)
+    assert answer.code == 2
+    assert "is named for two outputs" in answer.err
+    assert not both.exists()
+
+
 def test_fleet_size_overrides_the_file(call: Any, tiny: Path) -> None:
     assert len(call("solve", tiny, "--fleet-size", 3, "--json").doc["routes"]) == 3
 

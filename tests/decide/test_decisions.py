@@ -76,6 +76,14 @@ def test_power_and_endurance() -> None:
 
 
 @pytest.mark.parametrize("wrong", [0.0, -1.0, float("nan"), float("inf")])
+def test_speeds_and_batteries_must_be_positive(mission: Instance, wrong: float) -> None:
+    with pytest.raises(InputError, match=r"^speeds: .*above 0"):
+        sweep_speeds(mission, [1.0, wrong])
+    with pytest.raises(InputError, match=r"^battery: .*above 0"):
+        sweep_speeds(mission, [1.0], battery=wrong)
+
+
+@pytest.mark.parametrize("wrong", [0.0, -1.0, float("nan"), float("inf")])
 def test_power_must_be_positive(wrong: float) -> None:
     with pytest.raises(InputError, match="hotel"):
         PowerModel(hotel=wrong)
