@@ -191,7 +191,7 @@ def simulate(
     folder
         Folder that the name of the instance's file of currents is relative to.
     """
-    from fiveroute.experiments.campaign import Campaign, sail_campaign
+    from fiveroute.sea.campaign import Campaign, sail_campaign
 
     clock = Limits.of(limits).start()
     pier = prepare(

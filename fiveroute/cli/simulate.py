@@ -110,11 +110,11 @@ def command(
     from fiveroute.cli import answers
     from fiveroute.cli.running import run
     from fiveroute.cli.sailing import name_unreachable
-    from fiveroute.experiments.campaign import Campaign, sail_campaign
     from fiveroute.fleet_runs import prepare
     from fiveroute.formats import read_instance
     from fiveroute.formats.plan_file import read_plan
     from fiveroute.limits import Limits
+    from fiveroute.sea.campaign import Campaign, sail_campaign
 
     files = _Files(events, tracks, output, force)
     files.check()
@@ -209,10 +209,10 @@ def _registered(
     anew: bool,
 ) -> Registry:
     """Enter the campaign in the registry beside its table."""
-    from fiveroute.experiments import campaign
     from fiveroute.experiments.registry import Registry, file_hash
     from fiveroute.formats.native import instance_hash
     from fiveroute.formats.plan_file import currents_hash
+    from fiveroute.sea import campaign
 
     inputs = {
         "instance": instance_hash(mission),

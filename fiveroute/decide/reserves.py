@@ -11,9 +11,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from fiveroute.decide.sweep import Row, Sweep, vary
-from fiveroute.experiments.campaign import Campaign, sail_campaign
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.paths.voyage import Voyage
+from fiveroute.sea.campaign import Campaign, sail_campaign
 from fiveroute.sea.departure import departure_plan
 from fiveroute.sea.theatre import Theatre
 from fiveroute.tiers.preplanning import fleet_size_of

@@ -17,7 +17,6 @@ import fiveroute
 from fiveroute.errors import InputError
 from fiveroute.experiments.gap_row import GapRow, GapSettings, measure
 from fiveroute.experiments.kept_rows import KeptRows, key_of
-from fiveroute.experiments.sharing import share_out
 from fiveroute.fleet_plan import sail
 from fiveroute.formats import currents_file, instance_hash, read_instance
 from fiveroute.instance import Instance
@@ -26,6 +25,7 @@ from fiveroute.limits import Limits, Progress, ProgressCallback
 from fiveroute.models import METHODS
 from fiveroute.paths.voyage import Voyage
 from fiveroute.peers import PEERS
+from fiveroute.sharing import share_out
 
 __all__ = ["Entry", "measure_all", "read_entries"]
 

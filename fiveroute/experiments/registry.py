@@ -19,9 +19,9 @@ from typing import Any
 
 import fiveroute
 from fiveroute.errors import InputError
-from fiveroute.experiments.journal import Journal
 from fiveroute.formats.files import write_text_atomically
 from fiveroute.kernels import source_digest
+from fiveroute.sea.journal import Journal
 
 __all__ = ["Registry", "file_hash"]
 

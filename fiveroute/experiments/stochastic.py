@@ -26,7 +26,6 @@ import numpy as np
 
 import fiveroute
 from fiveroute.experiments.registry import Registry
-from fiveroute.experiments.sharing import share_out
 from fiveroute.formats.files import write_text_atomically
 from fiveroute.formats.native import instance_hash
 from fiveroute.generate import paper_scenario
@@ -36,6 +35,7 @@ from fiveroute.sea.departure import departure_plan
 from fiveroute.sea.sailed_luck import VehicleModel
 from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
+from fiveroute.sharing import share_out
 from fiveroute.tiers.preplanning import fleet_size_of
 
 __all__ = [

@@ -137,6 +137,8 @@ class Job:
             progress=self._hear,
             folder=self.folder,
         )
+        if answer.bound is None:  # what was told on the way may hold for a part of the legs only
+            self.bound = None
         self._note(answer.objective, answer.bound)
         return answer.filed()
 

@@ -71,7 +71,7 @@ def test_what_cannot_be_is_refused(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.chdir(tiny.parent)
-    monkeypatch.setattr("fiveroute.experiments.sharing._PATIENCE", 0.5)
+    monkeypatch.setattr("fiveroute.sharing._PATIENCE", 0.5)
     answer = call("gap", tiny, *arguments)
     assert (answer.code, answer.out) == (2, "")
     assert message in answer.err

@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 
 from fiveroute.experiments.gap_row import GapRow
-from fiveroute.experiments.journal import Journal
 from fiveroute.experiments.kept_rows import KeptRows
 from fiveroute.paths import leg_cache
 from fiveroute.paths.leg_cache import cache_folder, keep_table, kept_table
 from fiveroute.paths.leg_table import LegTable
+from fiveroute.sea.journal import Journal
 
 TABLE = LegTable.of(3, {(0, 1): (5.0, np.array([[0.0, 0.0], [3.0, 4.0]]))})
 PARTS = {

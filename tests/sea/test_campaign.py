@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from fiveroute.errors import InputError
-from fiveroute.experiments.campaign import Campaign, sail_campaign
 from fiveroute.experiments.run_table import event_lines, require_table, write_table
 from fiveroute.instance import Fleet, Instance, Node, Point
 from fiveroute.limits import Limits, Progress
 from fiveroute.routes import Plan
+from fiveroute.sea.campaign import Campaign, sail_campaign
 from fiveroute.sea.simulation import SimulationResult, simulate_fleet
 from fiveroute.sea.theatre import Theatre
 
@@ -65,7 +65,7 @@ def test_a_cluster_that_loses_a_worker_gives_the_same_numbers() -> None:
 
 def test_no_scheduler_answers(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed")
-    monkeypatch.setattr("fiveroute.experiments.sharing._PATIENCE", 0.5)
+    monkeypatch.setattr("fiveroute.sharing._PATIENCE", 0.5)
     with pytest.raises(InputError, match="no Dask scheduler answers"):
         sail_campaign(campaign(), scheduler="tcp://127.0.0.1:1")
 

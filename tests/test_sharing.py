@@ -5,7 +5,7 @@ from contextlib import closing
 import pytest
 
 from fiveroute.errors import InputError
-from fiveroute.experiments.sharing import share_out
+from fiveroute.sharing import share_out
 
 
 def square(number: int) -> int:

@@ -11,18 +11,18 @@ from pathlib import Path
 
 import pytest
 
-from fiveroute.experiments.campaign import Campaign, sail_campaign
-from fiveroute.experiments.journal import Journal
 from fiveroute.generate import generate
 from fiveroute.routes import Plan
+from fiveroute.sea.campaign import Campaign, sail_campaign
+from fiveroute.sea.journal import Journal
 from fiveroute.sea.simulation import RunResult, simulate_fleet
 from fiveroute.sea.theatre import Theatre
 
 PROGRAM = """
 import sys, time
 from pathlib import Path
-from fiveroute.experiments.campaign import Campaign, sail_campaign
-from fiveroute.experiments.journal import Journal
+from fiveroute.sea.campaign import Campaign, sail_campaign
+from fiveroute.sea.journal import Journal
 from fiveroute.generate import generate
 from fiveroute.routes import Plan
 from fiveroute.sea.theatre import Theatre

@@ -12,12 +12,12 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from typing import Any
 
-from fiveroute.experiments.journal import Journal
-from fiveroute.experiments.sharing import share_out
 from fiveroute.limits import Limits, Progress, ProgressCallback
 from fiveroute.routes import Plan
+from fiveroute.sea.journal import Journal
 from fiveroute.sea.simulation import SimulationResult, simulate_fleet
 from fiveroute.sea.theatre import Theatre
+from fiveroute.sharing import share_out
 
 __all__ = ["Campaign", "sail_campaign"]
 
