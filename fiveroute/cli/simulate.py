@@ -113,6 +113,7 @@ def command(
     from fiveroute.fleet_runs import prepare
     from fiveroute.formats import read_instance
     from fiveroute.formats.plan_file import read_plan
+    from fiveroute.heuristics.shortest_routes import is_proved_infeasible
     from fiveroute.limits import Limits
     from fiveroute.sea.campaign import Campaign, sail_campaign
 
@@ -146,7 +147,7 @@ def command(
         return pier.voyage, pier.theatre, result
 
     outcome = run(work, Limits(time_limit))
-    voyage, _, result = outcome.value
+    voyage, theatre, result = outcome.value
     files.write(*outcome.value, choices["seed"])
     if registry:
         registry.end()
@@ -157,7 +158,12 @@ def command(
         answers.print_json(answer)
     else:
         answers.print_simulation(answer)
-    ctx.exit(130 if outcome.interrupted else 0)
+    no_plan_exists = is_proved_infeasible(theatre.problem)
+    if no_plan_exists:
+        click.echo(
+            "fiveroute: the destination is out of reach in time; AUVs come home late", err=True
+        )
+    ctx.exit(130 if outcome.interrupted else int(no_plan_exists))
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from pathlib import Path
 
 import click
@@ -44,6 +45,8 @@ def command(file: Path | None, port: int, no_browser: bool, folder: Path | None)
         click.echo("fiveroute: Ctrl-C ends the studio", err=True)
         if not no_browser:
             webbrowser.open(studio.url)
+        # A shell that starts a command in the background has it ignore Ctrl-C.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         try:
             studio.serve_forever()
         except KeyboardInterrupt:

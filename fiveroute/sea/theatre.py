@@ -79,8 +79,9 @@ class Theatre:
         return cls(problem, law, instance.points, lengths_km, out_of_reach=out_of_reach)
 
     def completion(self, collected: float) -> float:
-        """Completion rate theta, (31), of some collected data."""
-        return collected / (self.problem.total_profit + self.out_of_reach or 1.0)
+        """Completion rate theta, (31), of collected data; with none to collect, all of it is."""
+        total = self.problem.total_profit + self.out_of_reach
+        return collected / total if total > 0.0 else 1.0
 
     def sailed_by(
         self, model: VehicleModel, seed: int = 0, *, limits: Limits | None = None

@@ -153,3 +153,14 @@ def test_another_campaign_that_is_not_over_is_not_touched(
     assert answer.code == 2
     assert "runs was 3, and is 4" in answer.err
     assert call("simulate", tiny, "--runs", 3, "--output", table).code == 0
+
+
+def test_a_fleet_that_cannot_get_home_is_told_so(call: Any, tiny: Path, tmp_path: Path) -> None:
+    document = json.loads(tiny.read_text())
+    document["fleet"]["endurance"] = 1.0
+    short = tmp_path / "short.json"
+    short.write_text(json.dumps(document))
+    answer = call("simulate", short, "--runs", 2, "--json")
+    assert answer.code == 1
+    assert "the destination is out of reach in time" in answer.err
+    assert answer.doc["late_returns"] > 0
