@@ -25,8 +25,7 @@ __all__ = ["command"]
 @click.option(
     "--currents",
     type=click.Choice(["effective", "printed", "none"]),
-    default="effective",
-    show_default=True,
+    show_default="effective",
     help="Vortices of the layout 'paper': as printed they are too weak to matter.",
 )
 @options.output("File to write.", required=True)
@@ -36,13 +35,22 @@ def command(
     nodes: int,
     seed: int,
     fleet_size: int | None,
-    currents: str,
+    currents: str | None,
     output: Path,
     force: bool,
 ) -> None:
     """Write a scenario: LAYOUT is that of the paper's Section IV-A, or another one."""
+    from fiveroute.errors import InputError
     from fiveroute.formats import write_instance
     from fiveroute.generate import generate
 
-    scenario = generate(layout, nodes=nodes, seed=seed, fleet_size=fleet_size, currents=currents)
+    if currents is not None and layout != "paper":
+        raise InputError(
+            f"is for the layout 'paper'; {layout!r} has still water, leave it out",
+            field="--currents",
+            value=currents,
+        )
+    scenario = generate(
+        layout, nodes=nodes, seed=seed, fleet_size=fleet_size, currents=currents or "effective"
+    )
     write_instance(scenario, output, force=force)

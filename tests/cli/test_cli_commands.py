@@ -54,6 +54,13 @@ def test_giant_route_between_two_ends_lists_the_nodes(call: Any, tiny: Path) -> 
     assert answer.doc["status"] == "optimal"
 
 
+def test_currents_are_for_the_layout_of_the_paper(call: Any, tmp_path: Path) -> None:
+    answer = call("generate", "ring", "--currents", "printed", "--output", tmp_path / "ring.json")
+    assert answer.code == 2
+    assert "--currents" in answer.err
+    assert not (tmp_path / "ring.json").exists()
+
+
 def test_generate_is_repeatable(call: Any, tmp_path: Path) -> None:
     for name in ("one.json", "two.json"):
         assert call("generate", "paper", "--seed", 5, "--output", tmp_path / name).code == 0
