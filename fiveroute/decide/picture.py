@@ -7,19 +7,20 @@ import math
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from fiveroute.colours import BLUE, GREEN, VERMILION
 from fiveroute.decide.sweep import Sweep
 
 __all__ = ["sweep_figure"]
 
-_BLUE, _VERMILION, _GREEN, _GREY = "#0072B2", "#D55E00", "#009E73", "#999999"
+_GREY = "#999999"
 _SPREADS = (
     ("p5", "p95", "5 to 95 % of runs"),
     ("held_out_p5", "held_out_p95", "5 to 95 % of them"),
 )
 _LINES = (
-    ("completion_rate", "plan", _BLUE),
-    ("held_out_mean", "mean of held-out members", _BLUE),
-    ("held_out_cvar", "their CVaR", _VERMILION),
+    ("completion_rate", "plan", BLUE),
+    ("held_out_mean", "mean of held-out members", BLUE),
+    ("held_out_cvar", "their CVaR", VERMILION),
 )
 
 
@@ -46,9 +47,9 @@ def sweep_figure(sweep: Sweep) -> Figure:
         if low in sweep.rows[0]:
             spread = _column(sweep, low), _column(sweep, high)
             if words:
-                axis.vlines(places, *spread, color=_BLUE, alpha=0.3, linewidth=6, label=label)
+                axis.vlines(places, *spread, color=BLUE, alpha=0.3, linewidth=6, label=label)
             else:
-                axis.fill_between(places, *spread, color=_BLUE, alpha=0.15, label=label)
+                axis.fill_between(places, *spread, color=BLUE, alpha=0.15, label=label)
     if words:
         axis.set_xticks(places, [str(value) for value in values], rotation=20, ha="right")
     _draw_late(axis, sweep, places)
@@ -69,7 +70,7 @@ def _draw_late(axis: Axes, sweep: Sweep, places: list[float]) -> None:
         return
     other = axis.twinx()
     late = [100.0 * share for share in _column(sweep, "late_share")]
-    other.plot(places, late, "s--", color=_VERMILION, label="late returns")
+    other.plot(places, late, "s--", color=VERMILION, label="late returns")
     other.set_ylabel("late returns in %")
     other.set_ylim(bottom=0.0)
 
@@ -81,7 +82,7 @@ def _draw_mark(axis: Axes, sweep: Sweep, places: dict[object, float]) -> None:
     if at is None and isinstance(sweep.marked, (int, float)):
         at = float(sweep.marked)
     if at is not None:
-        axis.axvline(at, color=_GREEN, linestyle=":", label=sweep.because)
+        axis.axvline(at, color=GREEN, linestyle=":", label=sweep.because)
 
 
 def _column(sweep: Sweep, name: str) -> list[float]:

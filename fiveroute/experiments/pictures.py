@@ -18,6 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 
+from fiveroute.colours import COLOURS
 from fiveroute.errors import InputError
 from fiveroute.formats.files import written_whole
 from fiveroute.instance import Instance
@@ -37,7 +38,6 @@ __all__ = [
     "save",
 ]
 
-_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 _IDLE = "#999999"
 _LAND = "#8c6d46"
 _ARROWS = 25  # across a picture
@@ -71,7 +71,7 @@ class Panel:
 
 def colour_of(auv: int) -> str:
     """The colour of an AUV, the same in all pictures."""
-    return _COLOURS[auv % len(_COLOURS)]
+    return COLOURS[auv % len(COLOURS)]
 
 
 def path_map(waters: Waters, planned: PlannedPath, title: str) -> Figure:
@@ -85,7 +85,7 @@ def path_map(waters: Waters, planned: PlannedPath, title: str) -> Figure:
     _draw_barriers(axis, waters)
     track, reference = planned.path.waypoints / 1000.0, planned.reference_track / 1000.0
     axis.plot(*reference.T, "--", color="white", linewidth=1.5, label="reference", zorder=3)
-    axis.plot(*track.T, color=_COLOURS[1], linewidth=2.0, label="path", zorder=4)
+    axis.plot(*track.T, color=COLOURS[1], linewidth=2.0, label="path", zorder=4)
     if len(track):
         axis.plot(*track[0], "^", color="black", markersize=9, zorder=5)
         axis.plot(*track[-1], "*", color="black", markersize=12, zorder=5)
@@ -191,16 +191,16 @@ def completion_boxes(
         tick_labels=list(samples),
         widths=0.5,
         showmeans=True,
-        meanprops={"marker": "_", "markeredgecolor": _COLOURS[1], "markersize": 14},
-        medianprops={"color": _COLOURS[0]},
+        meanprops={"marker": "_", "markeredgecolor": COLOURS[1], "markersize": 14},
+        medianprops={"color": COLOURS[0]},
         flierprops={"marker": "o", "markersize": 4},
     )
     for place, name in enumerate(samples, start=1):
         if name in published:
-            axis.plot(place + 0.36, published[name], "D", color=_COLOURS[2], markersize=5)
-    axis.plot([], [], "_", color=_COLOURS[1], markersize=14, label="mean")
+            axis.plot(place + 0.36, published[name], "D", color=COLOURS[2], markersize=5)
+    axis.plot([], [], "_", color=COLOURS[1], markersize=14, label="mean")
     if published:
-        axis.plot([], [], "D", color=_COLOURS[2], markersize=5, label="mean in the paper")
+        axis.plot([], [], "D", color=COLOURS[2], markersize=5, label="mean in the paper")
     axis.legend(loc="lower right", fontsize="small")
     axis.set(title=title, ylabel="expected completion rate")
     axis.grid(axis="y", alpha=0.3)
@@ -222,7 +222,7 @@ def gap_profile(
     solved = sorted(seconds for seconds in proof_times if seconds is not None)
     figure = Figure(figsize=(10.0 if solved else 5.5, 4.2), layout="constrained")
     axes = figure.subplots(1, 2 if solved else 1, squeeze=False)[0]
-    for colour, (name, values) in zip(itertools.cycle(_COLOURS), shortfalls.items()):
+    for colour, (name, values) in zip(itertools.cycle(COLOURS), shortfalls.items()):
         below = [100.0 * value for value in sorted(values)]
         _draw_shares(axes[0], below, len(below), 100.0, color=colour, label=name)
     axes[0].set_xscale("symlog", linthresh=0.01)
@@ -231,7 +231,7 @@ def gap_profile(
     if shortfalls:
         axes[0].legend(loc="best", fontsize="small")
     if solved:
-        _draw_shares(axes[1], solved, len(proof_times), 2.0 * solved[-1], color=_COLOURS[0])
+        _draw_shares(axes[1], solved, len(proof_times), 2.0 * solved[-1], color=COLOURS[0])
         axes[1].set(xscale="log", xlabel="s", ylabel="share of instances", ylim=(0.0, 1.02))
         axes[1].set(title="Proved optimal within")
     for axis in axes:

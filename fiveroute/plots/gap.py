@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from fiveroute.colours import BLUE
 from fiveroute.result import optimality_gap
 
 __all__ = ["gap_text", "plot_gap"]
@@ -25,7 +26,7 @@ def plot_gap(results: Mapping[str, tuple[float, float | None]], ax: Axes | None 
     if ax is None:
         ax = Figure(figsize=(7.0, 1.2 + 0.5 * len(results)), layout="constrained").subplots()
     for place, (objective, bound) in enumerate(results.values()):
-        ax.barh(place, objective, color="#0072b2", height=0.6)
+        ax.barh(place, objective, color=BLUE, height=0.6)
         if bound is not None:
             ax.barh(place, bound - objective, left=objective, color="#dde8f1", height=0.6)
             ax.plot([bound, bound], [place - 0.36, place + 0.36], color="black", linewidth=2.0)

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from fiveroute.colours import COLOURS
 from fiveroute.plots.gap import gap_text
 from fiveroute.plots.sea import plot_sea, unit_of
 from fiveroute.view.event_log import RunLog
@@ -20,7 +21,6 @@ __all__ = ["draw_fleet", "plot_mission", "plot_plan", "run_legs"]
 Floats = NDArray[np.float64]
 Legs = tuple[tuple[Leg, ...], ...]
 
-_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 _DASHES = ("-", "--", ":", "-.")
 _GREY = "#75828d"
 
@@ -89,7 +89,7 @@ def draw_fleet(ax: Axes, scene: Scene, legs: Legs, t: float = math.inf) -> None:
     for auv, route in enumerate(scene.routes.routes):
         owner[[node - 1 for node in route]] = auv
     for auv, own in enumerate(legs):
-        colour, dash = _COLOURS[auv % len(_COLOURS)], _DASHES[auv // len(_COLOURS) % len(_DASHES)]
+        colour, dash = COLOURS[auv % len(COLOURS)], _DASHES[auv // len(COLOURS) % len(_DASHES)]
         x, y = _until(track_of(auv, own, scene.shapes, scene.instance.points), t).T / unit
         ax.plot(x, y, color="white", linewidth=3.4, zorder=3)
         ax.plot(x, y, dash, color=colour, linewidth=1.8, zorder=4, label=f"AUV {auv + 1}")
@@ -109,7 +109,7 @@ def _draw_nodes(ax: Axes, scene: Scene, owner: NDArray[Any], filled: NDArray[np.
     """Circles whose area grows with the data, in the colour of their AUV."""
     points = scene.instance.points / unit_of(scene)
     data = np.array([node.data for node in scene.instance.nodes])
-    edges = np.array([_GREY if auv < 0 else _COLOURS[auv % len(_COLOURS)] for auv in owner])
+    edges = np.array([_GREY if auv < 0 else COLOURS[auv % len(COLOURS)] for auv in owner])
     area = 8.0 + 70.0 * data / max(float(data.max(initial=0.0)), 1e-12)
     for is_filled in (False, True):
         some = filled == is_filled

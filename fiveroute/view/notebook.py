@@ -11,6 +11,7 @@ from html import escape
 import numpy as np
 from numpy.typing import NDArray
 
+from fiveroute.colours import COLOURS
 from fiveroute.formats.plan_file import PlanFile
 from fiveroute.result import optimality_gap
 
@@ -18,7 +19,7 @@ __all__ = ["plan_html"]
 
 Floats = NDArray[np.float64]
 
-_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#888888")
+_COLOURS = (*COLOURS[:-1], "#888888")  # a notebook may be dark
 _SIDE, _RIM = 360.0, 12.0
 _MOST_NODES, _MOST_ROWS = 2000, 50
 
