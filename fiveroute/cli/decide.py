@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -12,7 +13,9 @@ from fiveroute.cli import options
 
 if TYPE_CHECKING:
     from fiveroute.decide.sweep import Sweep
+    from fiveroute.instance import Instance
     from fiveroute.limits import Limits, ProgressCallback
+    from fiveroute.paths.voyage import Voyage
 
 __all__ = ["command"]
 
@@ -107,7 +110,6 @@ def fleet_size(
     **how: Any,
 ) -> None:
     """How many AUVs: what each number of them collects, and could collect at most."""
-    from fiveroute.cli.sailing import sail
     from fiveroute.decide.fleet_sizes import sweep_fleet_sizes
     from fiveroute.errors import InputError
     from fiveroute.formats import read_instance
@@ -115,17 +117,8 @@ def fleet_size(
     if any(size < 1 or size != int(size) for size in sizes):
         raise InputError("must be whole numbers from 1 on", field="--sizes", value=list(sizes))
     mission = read_instance(instance)
-
-    def work(limits: Limits, progress: ProgressCallback | None) -> Sweep:
-        clock = limits.start()
-        voyage = sail(
-            mission, instance, limits, straight_lines=straight_lines, seed=seed, progress=progress
-        )
-        whole = [int(size) for size in sizes]
-        return sweep_fleet_sizes(
-            voyage, whole, bound=bound, limits=clock.rest(), seed=seed, progress=progress
-        )
-
+    sweep = partial(sweep_fleet_sizes, sizes=[int(size) for size in sizes], bound=bound)
+    work = _at_sea(sweep, mission, instance, straight_lines=straight_lines, seed=seed)
     _answer(ctx, work, time_limit, **how)
 
 
@@ -292,7 +285,6 @@ def reserve(
     **how: Any,
 ) -> None:
     """How cautiously: data collected at sea against AUVs that come home late."""
-    from fiveroute.cli.sailing import sail
     from fiveroute.decide.reserves import sweep_reserves
     from fiveroute.errors import InputError
     from fiveroute.formats import read_instance
@@ -300,24 +292,15 @@ def reserve(
     if min(reserves) < 0.0:
         raise InputError("must not be negative", field="--reserves", value=min(reserves))
     mission = read_instance(instance)
-
-    def work(limits: Limits, progress: ProgressCallback | None) -> Sweep:
-        clock = limits.start()
-        voyage = sail(
-            mission, instance, limits, straight_lines=straight_lines, seed=seed, progress=progress
-        )
-        return sweep_reserves(
-            voyage,
-            reserves,
-            accepted_late=accepted_late,
-            fleet_size=fleet_size,
-            runs=runs,
-            workers=workers,
-            limits=clock.rest(),
-            seed=seed,
-            progress=progress,
-        )
-
+    sweep = partial(
+        sweep_reserves,
+        reserves=reserves,
+        accepted_late=accepted_late,
+        fleet_size=fleet_size,
+        runs=runs,
+        workers=workers,
+    )
+    work = _at_sea(sweep, mission, instance, straight_lines=straight_lines, seed=seed)
     _answer(ctx, work, time_limit, **how)
 
 
@@ -385,7 +368,6 @@ def ensemble(
     """
     import numpy as np
 
-    from fiveroute.cli.sailing import sail
     from fiveroute.decide.ensembles import (
         drawn_members,
         ensemble_sweep,
@@ -406,22 +388,37 @@ def ensemble(
         else drawn_members(mission, draw, uncertainty, rng, folder)
     )
 
-    def work(limits: Limits, progress: ProgressCallback | None) -> Sweep:
-        clock = limits.start()
-        voyage = sail(mission, instance, limits, straight_lines=False, seed=seed, progress=progress)
+    def against_members(voyage: Voyage, **search: Any) -> Sweep:
+        times = [member_times(voyage, ocean) for ocean in oceans]
+        tested = held_out or max(len(oceans) // 2, 1)
         planned = plan_against_ensemble(
-            voyage,
-            [member_times(voyage, ocean) for ocean in oceans],
-            held_out or max(len(oceans) // 2, 1),
-            alpha=alpha,
-            fleet_size=fleet_size,
-            limits=clock.rest(),
-            seed=seed,
-            progress=progress,
+            voyage, times, tested, alpha=alpha, fleet_size=fleet_size, **search
         )
         return ensemble_sweep(voyage, planned)
 
+    work = _at_sea(against_members, mission, instance, straight_lines=False, seed=seed)
     _answer(ctx, work, time_limit, **how)
+
+
+def _at_sea(
+    sweep: Callable[..., Sweep],
+    mission: Instance,
+    file: Path,
+    *,
+    straight_lines: bool,
+    seed: int,
+) -> Callable[[Limits, ProgressCallback | None], Sweep]:
+    """Plan the legs of a mission first, and sweep over its voyage in the time that is left."""
+    from fiveroute.cli.sailing import sail
+
+    def work(limits: Limits, progress: ProgressCallback | None) -> Sweep:
+        clock = limits.start()
+        voyage = sail(
+            mission, file, limits, straight_lines=straight_lines, seed=seed, progress=progress
+        )
+        return sweep(voyage, limits=clock.rest(), seed=seed, progress=progress)
+
+    return work
 
 
 def _answer(
