@@ -166,10 +166,7 @@ def simulation_answer(voyage: Voyage, result: SimulationResult, seed: int) -> di
     """The keys of `simulate`; completion is that of the whole mission."""
     import numpy as np
 
-    total = sum(node.data for node in voyage.mission.nodes)
-    reached = sum(node.data for node in voyage.instance.nodes)
-    share = reached / total if total > 0.0 else 1.0
-    rates = share * result.completions
+    rates = result.completions
     least, low, middle, high, most = np.percentile(rates, (0, 25, 50, 75, 100)).tolist()
     sent, delivered = result.messages
     return {
@@ -186,7 +183,7 @@ def simulation_answer(voyage: Voyage, result: SimulationResult, seed: int) -> di
             "p75": high,
             "max": most,
         },
-        "planned_completion": share * result.planned_completion,
+        "planned_completion": result.planned_completion,
         "online_gap": result.online_gap,
         "late_returns": result.late_returns,
         "double_visits": result.double_visits,

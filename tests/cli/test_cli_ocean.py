@@ -172,6 +172,22 @@ def test_an_unreachable_node_is_not_visited(call: Any, sea: Any) -> None:
     assert answer.doc["completion_rate"] <= 0.75 / 1.75 + 1e-9
 
 
+def test_a_node_out_of_reach_counts_once_at_sea(call: Any, sea: Any, tmp_path: Path) -> None:
+    """The completion of a simulation is that of its log, over the data of all nodes."""
+    sides = [(1300, 1300, 1700, 1350), (1300, 1850, 1700, 1900), (1300, 1300, 1350, 1900)]
+    sides.append((1650, 1300, 1700, 1900))
+    walls = [{"polygon": [[w, s], [e, s], [e, n], [w, n]]} for w, s, e, n in sides]
+    file, log = sea(land=walls), tmp_path / "events.jsonl"
+    answer = call("simulate", file, "--runs", 3, "--events", log, "--json")
+    assert answer.doc["unreachable"] == ["c"]
+    data = {node["id"]: node["data"] for node in json.loads(file.read_text())["nodes"]}
+    events = [json.loads(line) for line in log.read_text().splitlines()]
+    collected = sum(data[event["node"]] for event in events if event["kind"] == "collect")
+    assert collected > 0.0
+    expected = collected / 3 / sum(data.values())
+    assert answer.doc["completion"]["mean"] == pytest.approx(expected)
+
+
 def test_gap_and_giant_route_in_the_ocean(call: Any, sea: Any) -> None:
     file = sea(**STREAM)
     route = call("giant-route", file, "--exact", "--json").doc
