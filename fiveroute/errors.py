@@ -7,9 +7,13 @@ sentence and exits with code 2; a library user catches `FiverouteError`.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from difflib import get_close_matches
 from pathlib import Path
 
-__all__ = ["FiverouteError", "InputError", "MissingExtraError"]
+__all__ = ["FiverouteError", "InputError", "MissingExtraError", "nearest"]
+
+_NAMES_SHOWN = 20
 
 
 class FiverouteError(Exception):
@@ -63,6 +67,17 @@ class InputError(FiverouteError):
 
 class MissingExtraError(FiverouteError):
     """An optional package is needed; the message names the extra to install."""
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """What to write instead of an unknown name."""
+    names = sorted(known)
+    close = get_close_matches(name, names, n=1)
+    if close:
+        return f"did you mean {close[0]!r}?"
+    more = len(names) - _NAMES_SHOWN
+    shown = ", ".join(names[:_NAMES_SHOWN])
+    return f"known are {shown}" + (f" and {more} more" if more > 0 else "")
 
 
 def _shorten(value: object) -> str:

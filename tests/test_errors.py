@@ -1,6 +1,6 @@
 import pytest
 
-from fiveroute.errors import FiverouteError, InputError
+from fiveroute.errors import FiverouteError, InputError, nearest
 
 
 @pytest.mark.parametrize(
@@ -30,3 +30,14 @@ def test_sentence_stays_short_and_on_one_line() -> None:
     error = InputError("must\nbe\x1b[31m short", value="x" * 10_000, file="a\nb\r.txt")
     assert str(error).isprintable()
     assert len(str(error)) < 120
+
+
+def test_the_nearest_name_is_offered() -> None:
+    assert nearest("tmx", ["n", "m", "tmax"]) == "did you mean 'tmax'?"
+    assert nearest("zzz", ["n", "m"]) == "known are m, n"
+
+
+def test_no_name_is_lost_in_thousands() -> None:
+    told = nearest("zzz", [str(k) for k in range(5000)])
+    assert told.endswith(" and 4980 more")
+    assert len(told) < 200

@@ -11,7 +11,7 @@ from importlib import import_module
 import click
 
 import fiveroute
-from fiveroute.errors import FiverouteError
+from fiveroute.errors import FiverouteError, nearest
 
 __all__ = ["main"]
 
@@ -47,6 +47,17 @@ class _LazyGroup(click.Group):
         module = import_module(f"fiveroute.cli.{cmd_name.replace('-', '_')}")
         command: click.Command = module.command
         return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        try:
+            return super().resolve_command(ctx, args)
+        except click.UsageError:
+            if args[0].startswith("-"):
+                raise
+            told = f"no such command {args[0]!r}; {nearest(args[0], COMMANDS)}"
+            raise click.UsageError(told, ctx) from None
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         with formatter.section("Commands"):

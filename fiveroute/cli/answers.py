@@ -46,6 +46,9 @@ __all__ = [
 _ONLY_IN_FILES = {"routes", "bound", "objective", "held_out_p25", "held_out_p75", "unreachable"}
 """Columns of a sweep that a table for people leaves out."""
 
+_ENDLESS = 1e6
+"""A gap as only a plan has that collects nothing, or as good as nothing."""
+
 _CODES = {Status.OPTIMAL: 0, Status.FEASIBLE: 0, Status.INFEASIBLE: 1, Status.NO_SOLUTION: 3}
 
 
@@ -361,4 +364,6 @@ def gap_text(gap: float | None) -> str:
     """A gap as people read it."""
     if gap is None:
         return "unknown"
+    if gap > _ENDLESS:
+        return "endless (nothing collected)"
     return "0 (optimal)" if gap == 0.0 else f"{100 * gap:.2f} %"

@@ -19,7 +19,7 @@ _CHARTS = ("csv", "geojson", "kml", "gpx")
 
 
 @click.command("convert")
-@click.argument("file", type=click.Path(path_type=Path))
+@click.argument("file", type=options.FILE)
 @click.option(
     "--from",
     "source_format",
@@ -33,7 +33,7 @@ _CHARTS = ("csv", "geojson", "kml", "gpx")
     required=True,
     help="Format to write.",
 )
-@options.output("File to write.", required=True)
+@options.output("File for the instance.", required=True)
 @click.option(
     "--start",
     type=options.POSITION,
@@ -46,12 +46,7 @@ _CHARTS = ("csv", "geojson", "kml", "gpx")
     metavar="LON,LAT",
     help="Where they are recovered; else the point 'destination'.",
 )
-@click.option(
-    "--fleet-size",
-    type=click.IntRange(min=1),
-    metavar="M",
-    help="Number of AUVs; without it the planner estimates one.",
-)
+@options.new_fleet_size
 @click.option("--speed", type=options.POSITIVE, metavar="V", help="Metres per second.")
 @click.option(
     "--endurance", type=options.POSITIVE, metavar="S", help="Seconds that an AUV can be out."
@@ -60,13 +55,13 @@ _CHARTS = ("csv", "geojson", "kml", "gpx")
 @click.option("--depth-rating", type=options.POSITIVE, metavar="D", help="Deepest dive in metres.")
 @click.option(
     "--zones",
-    type=click.Path(path_type=Path),
+    type=options.FILE,
     metavar="CHART",
     help="Land and obstacles: the polygons of a GeoJSON or KML file.",
 )
 @click.option(
     "--currents",
-    type=click.Path(path_type=Path),
+    type=options.FILE,
     metavar="NETCDF",
     help="File of currents of an ocean model.",
 )

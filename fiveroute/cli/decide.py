@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -36,7 +37,7 @@ class _Numbers(click.ParamType[tuple[float, ...]]):
             numbers = self._numbers(str(value))
         except ValueError:
             numbers = ()
-        if not numbers:
+        if not numbers or not all(map(math.isfinite, numbers)):
             self.fail(f"{value!r} is no list of numbers such as 1,2,3 or 0:24:6", param, ctx)
         return numbers
 
@@ -52,10 +53,8 @@ class _Numbers(click.ParamType[tuple[float, ...]]):
 
 
 _NUMBERS = _Numbers()
-_picture = click.option(
-    "--picture", type=click.Path(path_type=Path), help="Draw it to this PNG, PDF or SVG file."
-)
-_output = options.output("Write the table to this file, .csv, .md or .parquet.")
+_picture = options.picture("the table")
+_output = options.output("File for the table: .csv, .md or .parquet.")
 _bound = click.option(
     "--bound",
     type=click.Choice(["none", "quick", "exact"]),
@@ -180,13 +179,13 @@ def departure(
 )
 @click.option(
     "--battery",
-    type=click.FloatRange(min=0.0, min_open=True),
+    type=options.Real(min=0.0, min_open=True),
     metavar="WH",
     help="Watt-hours of an AUV; without it what the endurance of the instance needs.",
 )
 @click.option(
     "--hotel",
-    type=click.FloatRange(min=0.0, min_open=True),
+    type=options.Real(min=0.0, min_open=True),
     default=30.0,
     show_default=True,
     metavar="W",
@@ -194,7 +193,7 @@ def departure(
 )
 @click.option(
     "--propulsion",
-    type=click.FloatRange(min=0.0, min_open=True),
+    type=options.Real(min=0.0, min_open=True),
     default=4.05,
     show_default=True,
     metavar="W",
@@ -256,15 +255,13 @@ def speed(
 )
 @click.option(
     "--accepted-late",
-    type=click.FloatRange(0.0, 1.0),
+    type=options.Real(0.0, 1.0),
     default=0.01,
     show_default=True,
     metavar="P",
     help="Share of AUVs that may come home late.",
 )
-@click.option(
-    "--runs", type=click.IntRange(min=1), default=50, show_default=True, help="Oceans to sail in."
-)
+@options.runs
 @options.fleet_size
 @options.workers
 @options.straight_lines
@@ -306,10 +303,10 @@ def reserve(
 
 @command.command("ensemble")
 @options.instance
-@click.argument("members", nargs=-1, type=click.Path(path_type=Path))
+@click.argument("members", nargs=-1, type=options.FILE)
 @click.option(
     "--draw",
-    type=click.IntRange(min=2),
+    type=options.Whole(min=2),
     default=30,
     show_default=True,
     metavar="K",
@@ -317,20 +314,21 @@ def reserve(
 )
 @click.option(
     "--held-out",
-    type=click.IntRange(min=1),
+    type=options.Whole(min=1),
     metavar="H",
     help="Members that are not planned with, the last ones; half of them by default.",
 )
 @click.option(
     "--alpha",
-    type=click.FloatRange(0.0, 1.0, min_open=True),
+    type=options.Real(0.0, 1.0, min_open=True),
     default=0.2,
     show_default=True,
+    metavar="A",
     help="Share of the worst members that decides (CVaR); 1 is the mean.",
 )
 @click.option(
     "--displacement",
-    type=click.FloatRange(min=0.0),
+    type=options.Real(min=0.0),
     default=800.0,
     show_default=True,
     metavar="METRES",
@@ -338,9 +336,10 @@ def reserve(
 )
 @click.option(
     "--strength",
-    type=click.FloatRange(min=0.0, max=5.0),
+    type=options.Real(min=0.0, max=5.0),
     default=0.5,
     show_default=True,
+    metavar="S",
     help="Standard deviation of the logarithm of their strength.",
 )
 @options.fleet_size
@@ -433,13 +432,13 @@ def _answer(
 ) -> None:
     """Work the table out, write and draw it where that is asked for, and print it."""
     from fiveroute.cli import answers
-    from fiveroute.cli.files import require_output
+    from fiveroute.cli.files import require_outputs, require_picture
     from fiveroute.cli.running import run
-    from fiveroute.experiments.run_table import require_table, write_rows
+    from fiveroute.formats.tables import require_table, write_rows
     from fiveroute.limits import Limits
 
-    for path in (output, picture):
-        require_output(path, force)
+    require_outputs(output, picture, force=force)
+    require_picture(picture)
     if output is not None:
         require_table(output)
     outcome = run(work, Limits(time_limit))
@@ -448,9 +447,9 @@ def _answer(
         write_rows(sweep.rows, output, force)
     if picture is not None:
         from fiveroute.decide.picture import sweep_figure
-        from fiveroute.experiments.pictures import save
+        from fiveroute.plots.saving import save_figure
 
-        save(sweep_figure(sweep), picture)
+        save_figure(sweep_figure(sweep), picture)
     answer = answers.sweep_answer(sweep)
     if as_json:
         answers.print_json(answer)

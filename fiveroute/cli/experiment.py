@@ -14,10 +14,21 @@ __all__ = ["command"]
 
 _scenarios = click.option(
     "--scenarios",
-    type=click.IntRange(min=1),
+    type=options.Whole(min=1),
     default=20,
     show_default=True,
+    metavar="N",
     help="Number of scenarios.",
+)
+
+
+_runs = click.option(
+    "--runs",
+    type=options.Whole(min=1),
+    default=50,
+    show_default=True,
+    metavar="K",
+    help="Oceans a scenario.",
 )
 
 
@@ -29,7 +40,7 @@ def command() -> None:
 @command.command("preplanning")
 @_scenarios
 @options.seed
-@options.output("Folder for report, tables and pictures; made if it is missing.")
+@options.output("Folder for report, tables and pictures.", kind=options.FOLDER)
 @options.force
 @options.json_output
 @click.pass_context
@@ -77,15 +88,16 @@ def preplanning(
 
 @command.command("stochastic")
 @_scenarios
-@click.option(
-    "--runs", type=click.IntRange(min=1), default=50, show_default=True, help="Oceans a scenario."
-)
+@_runs
 @options.actuation
 @options.reserve
 @options.workers
 @options.scheduler
 @options.seed
-@options.output("Folder for report, tables and pictures; what is done is kept there as it is done.")
+@options.output(
+    "Folder for report, tables and pictures, and for what is done as soon as it is done.",
+    kind=options.FOLDER,
+)
 @options.force
 @options.json_output
 @click.pass_context
@@ -143,16 +155,15 @@ def stochastic(
 @command.command("coordination")
 @click.option(
     "--scenarios",
-    type=click.IntRange(min=0),
+    type=options.Whole(min=0),
     default=5,
     show_default=True,
+    metavar="N",
     help="Scenarios of the ablations; 0 for none.",
 )
-@click.option(
-    "--runs", type=click.IntRange(min=1), default=50, show_default=True, help="Oceans a scenario."
-)
+@_runs
 @options.seed
-@options.output("Folder for report and pictures; made if it is missing.")
+@options.output("Folder for report and pictures.", kind=options.FOLDER)
 @options.force
 @options.json_output
 @click.pass_context

@@ -26,14 +26,15 @@ _FORMATS = (
 
 
 @click.command("export")
-@click.argument("plan", type=click.Path(path_type=Path))
+@click.argument("plan", type=options.FILE)
 @click.option(
     "--to", "format_name", type=click.Choice(_FORMATS), required=True, help="Format to write."
 )
 @options.output(
-    "File; a folder for moos and slocum, and for a fleet in qgc, wpl or cola2.", required=True
+    "File to write; a folder for moos and slocum, and for a fleet in qgc, wpl or cola2.",
+    required=True,
 )
-@click.option("--auv", type=click.IntRange(min=1), metavar="K", help="The K-th AUV only.")
+@click.option("--auv", type=options.Whole(min=1), metavar="K", help="The K-th AUV only.")
 @click.option(
     "--depth",
     type=options.METRES,

@@ -12,23 +12,26 @@ __all__ = ["command"]
 
 
 @click.command("generate")
-@click.argument("layout", type=click.Choice(["paper", "uniform", "clustered", "ring"]))
+@click.argument(
+    "layout", metavar="LAYOUT", type=click.Choice(["paper", "uniform", "clustered", "ring"])
+)
 @click.option(
     "--nodes",
-    type=click.IntRange(0, 100_000),
+    type=options.Whole(0, 100_000),
     default=60,
     show_default=True,
+    metavar="N",
     help="Number of sensor nodes.",
 )
 @options.seed
-@options.fleet_size
+@options.new_fleet_size
 @click.option(
     "--currents",
     type=click.Choice(["effective", "printed", "none"]),
     show_default="effective",
     help="Vortices of the layout 'paper': as printed they are too weak to matter.",
 )
-@options.output("File to write.", required=True)
+@options.output("File for the scenario.", required=True)
 @options.force
 def command(
     layout: str,
@@ -39,7 +42,10 @@ def command(
     output: Path,
     force: bool,
 ) -> None:
-    """Write a scenario: LAYOUT is that of the paper's Section IV-A, or another one."""
+    """Write a scenario.
+
+    LAYOUT is `paper` (Section IV-A), `uniform`, `clustered` or `ring`.
+    """
     from fiveroute.errors import InputError
     from fiveroute.formats import write_instance
     from fiveroute.generate import generate

@@ -11,13 +11,20 @@ import click
 
 __all__ = [
     "ACTUATIONS",
+    "FILE",
+    "FOLDER",
+    "Real",
+    "Whole",
     "actuation",
     "fleet_size",
     "force",
     "instance",
     "json_output",
+    "new_fleet_size",
     "output",
+    "picture",
     "reserve",
+    "runs",
     "scheduler",
     "seed",
     "straight_lines",
@@ -32,28 +39,47 @@ ACTUATIONS = ("abstraction", "vehicle")
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
-class _Number(click.ParamType[float]):
-    """A number that keeps a rule; no number keeps none."""
+class Whole(click.IntRange):
+    """A whole number in a range."""
 
-    def __init__(self, holds: Callable[[float], bool], rule: str) -> None:
-        self.name = "number"
-        self._holds, self._rule = holds, rule
+    name = "whole number"
+
+
+class Real(click.FloatRange):
+    """A finite number in a range: what is no number is in none."""
+
+    name = "number"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
+        """Read a number."""
+        number = float(super().convert(value, param, ctx))
+        if not math.isfinite(number):
+            self.fail(f"{value!r} is not a finite number", param, ctx)
+        return number
+
+
+class _Seconds(click.ParamType[float]):
+    """A time limit; infinity is none."""
+
+    name = "seconds"
 
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> float:
         try:
-            number = float(value)
+            seconds = float(value)
         except ValueError:
-            number = math.nan
-        if not self._holds(number):
-            self.fail(f"{value!r} is not {self._rule}", param, ctx)
-        return number
+            seconds = math.nan
+        if not seconds > 0.0:
+            self.fail(f"{value!r} is not a positive number of seconds", param, ctx)
+        return seconds
 
 
-SECONDS = _Number(lambda seconds: seconds > 0.0, "a positive number of seconds")
-METRES = _Number(lambda metres: 0.0 <= metres < math.inf, "a number of metres, 0 or more")
-POSITIVE = _Number(lambda number: 0.0 < number < math.inf, "a finite number above 0")
+SECONDS = _Seconds()
+METRES = Real(min=0.0)
+POSITIVE = Real(min=0.0, min_open=True)
 
 
 class _Position(click.ParamType[tuple[float, float]]):
@@ -73,22 +99,42 @@ class _Position(click.ParamType[tuple[float, float]]):
 
 POSITION = _Position()
 
-instance = click.argument("instance", type=click.Path(path_type=Path))
+FILE = click.Path(path_type=Path)
+FILE.name = "file"  # what help says for its values
+FOLDER = click.Path(path_type=Path)
+FOLDER.name = "dir"
+
+instance = click.argument("instance", type=FILE)
 
 fleet_size = click.option(
     "--fleet-size",
-    type=click.IntRange(min=1),
+    type=Whole(min=1),
     metavar="M",
     help="Number of AUVs; without it that of the instance.",
+)
+new_fleet_size = click.option(
+    "--fleet-size",
+    type=Whole(min=1),
+    metavar="M",
+    help="Number of AUVs; without it the planner estimates one.",
+)
+runs = click.option(
+    "--runs",
+    type=Whole(min=1),
+    default=50,
+    show_default=True,
+    metavar="K",
+    help="Oceans to sail in.",
 )
 time_limit = click.option(
     "--time-limit", type=SECONDS, default=math.inf, metavar="S", help="Wall-clock seconds."
 )
 seed = click.option(
     "--seed",
-    type=click.IntRange(min=0),
+    type=Whole(min=0),
     default=0,
     show_default=True,
+    metavar="N",
     help="Same seed, same answer, as long as no time limit cuts it short.",
 )
 straight_lines = click.option(
@@ -96,7 +142,7 @@ straight_lines = click.option(
 )
 workers = click.option(
     "--workers",
-    type=click.IntRange(min=1),
+    type=Whole(min=1),
     default=1,
     show_default=True,
     metavar="W",
@@ -112,7 +158,7 @@ actuation = click.option(
 )
 reserve = click.option(
     "--reserve",
-    type=click.FloatRange(min=0.0),
+    type=Real(min=0.0),
     default=1.645,
     show_default=True,
     metavar="Z",
@@ -124,8 +170,13 @@ json_output = click.option(
 force = click.option("--force", is_flag=True, help="Overwrite existing files.")
 
 
-def output(help_text: str, *, required: bool = False) -> Callable[[Command], Command]:
-    """``--output`` with its own words."""
-    return click.option(
-        "--output", type=click.Path(path_type=Path), required=required, help=help_text
-    )
+def output(
+    what: str, *, required: bool = False, kind: click.Path = FILE
+) -> Callable[[Command], Command]:
+    """``--output``, which says what is written there, in what formats if there are several."""
+    return click.option("--output", type=kind, required=required, help=what)
+
+
+def picture(what: str) -> Callable[[Command], Command]:
+    """``--picture``, which says what is drawn there."""
+    return click.option("--picture", type=FILE, help=f"Draw {what} here: .png, .svg or .pdf.")

@@ -27,7 +27,7 @@ _LONGEST = 4.0
 @click.argument("goal", metavar="TO")
 @click.option(
     "--depart",
-    type=click.FloatRange(min=0.0),
+    type=options.Real(min=0.0),
     default=0.0,
     show_default=True,
     metavar="T",
@@ -35,11 +35,7 @@ _LONGEST = 4.0
 )
 @options.time_limit
 @options.seed
-@click.option(
-    "--picture",
-    type=click.Path(path_type=Path),
-    help="Draw current, obstacles, path and reference to this PNG, PDF or SVG file.",
-)
+@options.picture("current, obstacles, path and reference")
 @options.force
 @options.json_output
 @click.pass_context
@@ -60,7 +56,7 @@ def command(
     FROM and TO are ids of nodes, `start` or `destination`.
     """
     from fiveroute.cli import answers
-    from fiveroute.cli.files import require_output
+    from fiveroute.cli.files import require_output, require_picture
     from fiveroute.cli.running import run
     from fiveroute.formats import read_instance
     from fiveroute.limits import Limits
@@ -68,6 +64,7 @@ def command(
     from fiveroute.tiers.pathing import plan_path, waters_of
 
     require_output(picture, force)
+    require_picture(picture)
     mission = read_instance(instance)
     ends = [_position(mission, name, field) for name, field in ((origin, "FROM"), (goal, "TO"))]
     way = float(np.hypot(*(ends[1] - ends[0]))) / mission.fleet.speed
@@ -81,9 +78,10 @@ def command(
     )
     planned, seconds = outcome.value, clock.seconds
     if picture is not None:
-        from fiveroute.experiments.pictures import path_map, save
+        from fiveroute.experiments.pictures import path_map
+        from fiveroute.plots.saving import save_figure
 
-        save(path_map(waters, planned, f"{mission.name}: {origin} to {goal}"), picture)
+        save_figure(path_map(waters, planned, f"{mission.name}: {origin} to {goal}"), picture)
     answer = answers.path_answer(mission, (origin, goal), planned, seconds)
     if as_json:
         answers.print_json(answer)
@@ -95,8 +93,7 @@ def command(
 
 def _position(mission: Instance, name: str, field: str) -> NDArray[np.float64]:
     """Where a stop is, in metres, shape (2,)."""
-    from fiveroute.errors import InputError
-    from fiveroute.formats.json_document import nearest
+    from fiveroute.errors import InputError, nearest
 
     names = ["start", *(node.id for node in mission.nodes), "destination"]
     if name not in names:

@@ -27,7 +27,7 @@ __all__ = ["command"]
     type=click.Choice(["giant-route", "voronoi", "k-means", "ahc"]),
     default="giant-route",
     show_default=True,
-    help="How the paper's pipeline first shares the nodes out.",
+    help="How Algorithm 1 first shares the nodes out; both searches begin with it.",
 )
 @click.option(
     "--search",
@@ -45,24 +45,26 @@ __all__ = ["command"]
 )
 @click.option(
     "--samples",
-    type=click.IntRange(min=0),
+    type=options.Whole(min=0),
     default=0,
     show_default=True,
+    metavar="K",
     help="Plan on this many sampled leg times (S-GGARP); 0 plans on the given ones.",
 )
 @click.option(
     "--quantile",
-    type=click.FloatRange(0.0, 1.0),
+    type=options.Real(0.0, 1.0),
+    metavar="Q",
     help="Quantile of a route's sampled time that must fit the endurance; default: the mean.",
 )
 @click.option(
     "--workers",
-    type=click.IntRange(min=1),
+    type=options.Whole(min=1),
     metavar="W",
     help="Threads of the fleet search; default: one a core. The plan does not depend on them.",
 )
 @options.straight_lines
-@options.output("Write the plan to this file.")
+@options.output("File for the plan.")
 @options.force
 @options.json_output
 @click.pass_context

@@ -40,7 +40,7 @@ _PREPARING = ("planner", "fleet_size", "reserve", "actuation", "straight_lines",
 
 @click.command("simulate")
 @options.instance
-@click.argument("plan", type=click.Path(path_type=Path), required=False)
+@click.argument("plan", type=options.FILE, required=False)
 @click.option(
     "--planner",
     type=click.Choice(PLANNERS),
@@ -50,9 +50,7 @@ _PREPARING = ("planner", "fleet_size", "reserve", "actuation", "straight_lines",
     "perfect communication, or no auction.",
 )
 @options.fleet_size
-@click.option(
-    "--runs", type=click.IntRange(min=1), default=50, show_default=True, help="Oceans to sail in."
-)
+@options.runs
 @options.seed
 @options.reserve
 @click.option(
@@ -63,11 +61,11 @@ _PREPARING = ("planner", "fleet_size", "reserve", "actuation", "straight_lines",
     help="Acoustic channel between the AUVs.",
 )
 @click.option(
-    "--loss", type=click.FloatRange(0.0, 1.0), metavar="P", help="Probability of losing a message."
+    "--loss", type=options.Real(0.0, 1.0), metavar="P", help="Probability of losing a message."
 )
 @click.option(
     "--failures",
-    type=click.FloatRange(0.0, 1.0),
+    type=options.Real(0.0, 1.0),
     default=0.0,
     show_default=True,
     metavar="P",
@@ -79,15 +77,13 @@ _PREPARING = ("planner", "fleet_size", "reserve", "actuation", "straight_lines",
 @options.scheduler
 @options.time_limit
 @options.straight_lines
-@click.option(
-    "--events", type=click.Path(path_type=Path), help="Write every event to this JSON lines file."
-)
+@click.option("--events", type=options.FILE, help="File for every event, as JSON lines.")
 @click.option(
     "--tracks",
-    type=click.Path(path_type=Path),
-    help="Write the track of every AUV to this netCDF file, as CF trajectories.",
+    type=options.FILE,
+    help="File for the track of every AUV, as CF trajectories: .nc.",
 )
-@options.output("Write a row a run to this file, .parquet or .csv.")
+@options.output("File for a table, a row a run: .csv, .md or .parquet.")
 @options.force
 @options.json_output
 @click.pass_context
@@ -182,8 +178,8 @@ class _Files:
     def check(self) -> None:
         """Refuse what could not be written, before any time is spent."""
         from fiveroute.cli.files import require_outputs
-        from fiveroute.experiments.run_table import require_table
         from fiveroute.experiments.track_file import require_tracks
+        from fiveroute.formats.tables import require_table
 
         require_outputs(self.events, self.tracks, self.output, force=self.force)
         require_tracks(self.tracks, self.force)

@@ -34,18 +34,19 @@ METHODS = (
 @options.time_limit
 @click.option(
     "--gap",
-    type=click.FloatRange(min=0.0),
+    type=options.Real(min=0.0),
     default=0.0,
     show_default=True,
+    metavar="G",
     help="Relative optimality gap at which to stop.",
 )
 @options.straight_lines
 @click.option(
     "--certificate",
-    type=click.Path(path_type=Path),
-    help="Write what `verify --certificate` needs to confirm the bound of the relaxation.",
+    type=options.FILE,
+    help="File for what `verify --certificate` needs to confirm the bound of the relaxation.",
 )
-@options.output("Write the plan to this file.")
+@options.output("File for the plan.")
 @options.force
 @options.json_output
 @click.pass_context

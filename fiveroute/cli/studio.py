@@ -7,14 +7,16 @@ from pathlib import Path
 
 import click
 
+from fiveroute.cli import options
+
 __all__ = ["command"]
 
 
 @click.command("studio")
-@click.argument("file", metavar="[PLAN|INSTANCE]", type=click.Path(path_type=Path), required=False)
+@click.argument("file", metavar="[PLAN|INSTANCE]", type=options.FILE, required=False)
 @click.option(
     "--port",
-    type=click.IntRange(0, 65535),
+    type=options.Whole(0, 65535),
     default=0,
     show_default="a free one",
     metavar="P",
@@ -23,8 +25,7 @@ __all__ = ["command"]
 @click.option("--no-browser", is_flag=True, help="Print the address only.")
 @click.option(
     "--folder",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
+    type=options.FOLDER,
     help="Project folder, the only one that is written to; without it that of the file.",
 )
 def command(file: Path | None, port: int, no_browser: bool, folder: Path | None) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,10 +20,10 @@ __all__ = ["command"]
 
 @click.command("verify")
 @options.instance
-@click.argument("plan", type=click.Path(path_type=Path), required=False)
+@click.argument("plan", type=options.FILE, required=False)
 @click.option(
     "--certificate",
-    type=click.Path(path_type=Path),
+    type=options.FILE,
     help="Confirm the bound that `solve --certificate` wrote, instead of judging a plan.",
 )
 @options.time_limit
@@ -50,6 +51,10 @@ def command(
 
     if (plan is None) == (certificate is None):
         raise click.UsageError("give either PLAN or --certificate")
+    if certificate is None and time_limit < math.inf:
+        raise click.UsageError("--time-limit is for --certificate; a plan is judged to the end")
+    if certificate is not None and straight_lines:
+        raise click.UsageError("--straight-lines is for PLAN; a certificate says it itself")
     mission = read_instance(instance)
     if certificate is not None:
         _confirm(ctx, mission, instance, certificate, time_limit, as_json)

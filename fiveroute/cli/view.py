@@ -12,27 +12,27 @@ __all__ = ["command"]
 
 
 @click.command("view")
-@click.argument("plan", type=click.Path(path_type=Path))
-@click.argument("other", type=click.Path(path_type=Path), required=False)
+@click.argument("plan", type=options.FILE)
+@click.argument("other", type=options.FILE, required=False)
 @click.option(
     "--events",
-    type=click.Path(path_type=Path),
+    type=options.FILE,
     multiple=True,
     help="Runs to play, as `simulate --events` wrote them; twice for PLAN and OTHER, or to "
     "compare two logs of PLAN.",
 )
 @click.option(
     "--run",
-    type=click.IntRange(min=0),
+    type=options.Whole(min=0),
     metavar="K",
     help="Run to draw in a picture or film; in a page choose it there.",
 )
 @click.option(
     "--instance",
-    type=click.Path(path_type=Path),
+    type=options.FILE,
     help="Instance that the plan must be for; its folder has the file of currents.",
 )
-@options.output("File to write: .html, .png, .svg, .pdf or .gif.", required=True)
+@options.output("File for page, picture or film: .html, .png, .svg, .pdf or .gif.", required=True)
 @options.force
 def command(
     plan: Path,

@@ -78,21 +78,21 @@ def write_report(
     force: bool = False,
 ) -> None:
     """Write all of `FILES` into a folder."""
-    from fiveroute.experiments.pictures import save
     from fiveroute.experiments.sea_pictures import auction_rounds, coordination_case, timeline
+    from fiveroute.plots.saving import save_figure
 
     for name in FILES:
         require_writable(folder / name, force)
     for case in cases:
-        save(coordination_case(case), folder / f"coordination-{len(case.plan.routes)}.png")
+        save_figure(coordination_case(case), folder / f"coordination-{len(case.plan.routes)}.png")
     case = cases[-1]
     run = case.together[case.typical]
     title = f"Scenario {case.scenario}: a run with coordination, hour by hour"
-    save(timeline(case.theatre.problem, run.events, title), folder / "timeline.png")
+    save_figure(timeline(case.theatre.problem, run.events, title), folder / "timeline.png")
     loose = slack_plan(case.instance, _SLACK, fleet_size=len(case.plan.routes))
     title = f"Scenario {case.scenario}: an auction among AUVs with time to spare"
     rounds = busiest_auction(case.theatre, loose, _RUNS)
-    save(auction_rounds(rounds, title), folder / "auction.png")
+    save_figure(auction_rounds(rounds, title), folder / "auction.png")
     write_text_atomically(folder / "report.md", report(cases, rows, runs), force)
 
 

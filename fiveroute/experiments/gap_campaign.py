@@ -39,12 +39,18 @@ class Entry:
     instance: Instance
     file: Path
 
-    def voyage(self, settings: GapSettings, progress: ProgressCallback | None = None) -> Voyage:
-        """The legs that its fleet sails."""
+    def voyage(
+        self,
+        settings: GapSettings,
+        limits: Limits | None = None,
+        progress: ProgressCallback | None = None,
+    ) -> Voyage:
+        """The legs that its fleet sails; not all of them where the limits end it before."""
         return sail(
             self.instance,
             folder=self.file.parent,
             straight_lines=settings.straight_lines,
+            limits=limits,
             seed=settings.seed,
             progress=progress,
         )
@@ -192,12 +198,26 @@ def _measured(
     limits: Limits | None = None,
     progress: ProgressCallback | None = None,
 ) -> tuple[int, GapRow, bool]:
-    """The number of an entry, its row, and whether the row is whole: not cut short by Ctrl-C."""
+    """The number of an entry, its row, and whether the row is whole: not cut short by Ctrl-C.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        If it is interrupted before its legs are planned: there is nothing to measure.
+    InputError
+        If the instance is none for these settings; it names the file.
+    """
     limits = limits or Limits()
 
     def report(step: Progress) -> None:
         if progress is not None:
             progress(replace(step, message=f"{entry.instance.name}: {step.message}"))
 
-    row = measure(entry.voyage(settings, report), settings, limits, report)
+    try:
+        voyage = entry.voyage(settings, limits, report)
+        if not voyage.is_complete:
+            raise KeyboardInterrupt
+        row = measure(voyage, settings, limits, report)
+    except InputError as error:
+        raise error.at(error.file or entry.file) from None
     return number, row, not limits.interrupt.is_set()

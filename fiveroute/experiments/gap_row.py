@@ -20,7 +20,7 @@ from fiveroute.exact import solve_from_good_plan
 from fiveroute.generate import scenario
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.mission import plan_mission
-from fiveroute.models import solve
+from fiveroute.models import METHODS, solve
 from fiveroute.models.bounds import quick_bound
 from fiveroute.paths.voyage import Voyage
 from fiveroute.peers import PeerAnswer, ask
@@ -215,8 +215,9 @@ def _warm_up(side: Side, method: str) -> None:
     plan = plan_mission(toy).result.plan
     if side != "heuristic":
         quick_bound(problem, Limits())
-        solve_from_good_plan(problem, method)
-        solve(problem, method, warm_start=plan)
+        if method == "auto" or METHODS[method].supports(problem):
+            solve_from_good_plan(problem, method)
+            solve(problem, method, warm_start=plan)
 
 
 def _proved(

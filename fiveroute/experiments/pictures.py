@@ -1,6 +1,6 @@
 """The plotting room: with `fiveroute.experiments.sea_pictures` the only place with matplotlib.
 
-Every function draws one figure and returns it; `save` writes it. Colours are those of
+Every function draws one figure and returns it. Colours are those of
 Okabe and Ito (2008), which colour-blind readers can tell apart.
 """
 
@@ -9,7 +9,6 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,8 +18,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 
 from fiveroute.colours import COLOURS
-from fiveroute.errors import InputError
-from fiveroute.formats.files import written_whole
 from fiveroute.instance import Instance
 from fiveroute.paths.legs import Waters
 from fiveroute.routes import Route
@@ -35,7 +32,6 @@ __all__ = [
     "map_legend",
     "path_map",
     "route_panels",
-    "save",
 ]
 
 _IDLE = "#999999"
@@ -243,12 +239,3 @@ def _draw_shares(axis: Axes, values: Sequence[float], total: int, end: float, **
     """The stairs of a distribution: a share of `total` at each value, drawn on to an end."""
     shares = np.minimum(np.arange(len(values) + 2), len(values)) / total
     axis.step([min(values, default=0.0), *values, end], shares, where="post", **style)
-
-
-def save(figure: Figure, path: Path) -> None:
-    """Write a figure, whole or not at all; the suffix chooses the format."""
-    try:
-        with written_whole(path) as draft:
-            figure.savefig(draft, dpi=150)
-    except OSError as error:
-        raise InputError(f"cannot be written ({error.strerror})", file=path) from None

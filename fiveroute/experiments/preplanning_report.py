@@ -68,7 +68,8 @@ def summary(scenarios: Sequence[Scenario]) -> dict[str, Any]:
 
 def write_report(scenarios: Sequence[Scenario], folder: Path, force: bool = False) -> None:
     """Write all of `FILES` into a folder."""
-    from fiveroute.experiments.pictures import Panel, completion_boxes, route_panels, save
+    from fiveroute.experiments.pictures import Panel, completion_boxes, route_panels
+    from fiveroute.plots.saving import save_figure
 
     for name in FILES:
         require_writable(folder / name, force)
@@ -79,14 +80,14 @@ def write_report(scenarios: Sequence[Scenario], folder: Path, force: bool = Fals
         Panel("(b) segments in time", shown.routing.trimmed),
         Panel(f"(c) optimised routes, {100 * rate:.1f} % collected", shown.routing.plan.routes),
     )
-    save(route_panels(shown.instance, panels), folder / "pipeline.png")
+    save_figure(route_panels(shown.instance, panels), folder / "pipeline.png")
     for file, title, names, published in (
         ("same-fleet.png", "The same number of AUVs", _SAME, SAME_FLEET),
         ("fixed-fleet.png", "Four AUVs for the other three", _FIXED, FIXED_FLEET),
     ):
         samples = {name: [s.completion[name] for s in scenarios] for name in names}
         means = {n: p.mean for n, p in _by_name(names, published).items() if p.mean is not None}
-        save(completion_boxes(title, samples, means), folder / file)
+        save_figure(completion_boxes(title, samples, means), folder / file)
     write_text_atomically(folder / "scenarios.csv", _scenario_table(scenarios), force)
     write_text_atomically(folder / "report.md", report(scenarios), force)
 

@@ -119,8 +119,9 @@ def _clearance(outcomes: Sequence[Outcome]) -> float | None:
 
 def write_report(outcomes: Sequence[Outcome], folder: Path, force: bool = False) -> None:
     """Write all of `FILES` into a folder."""
-    from fiveroute.experiments.pictures import completion_boxes, save
+    from fiveroute.experiments.pictures import completion_boxes
     from fiveroute.experiments.sea_pictures import scenario_chart
+    from fiveroute.plots.saving import save_figure
 
     for name in FILES:
         require_writable(folder / name, force)
@@ -130,7 +131,7 @@ def write_report(outcomes: Sequence[Outcome], folder: Path, force: bool = False)
         ("equal-fleet.png", "The same number of AUVs", ("five-tier", *COMPETITORS)),
     ):
         samples = {name: means[name].tolist() for name in names}
-        save(completion_boxes(title, samples, {}), folder / file)
+        save_figure(completion_boxes(title, samples, {}), folder / file)
     names, errors = ("five-tier", *_fixed()), _errors(outcomes)
     chart = scenario_chart(
         {name: means[name].tolist() for name in names},
@@ -138,7 +139,7 @@ def write_report(outcomes: Sequence[Outcome], folder: Path, force: bool = False)
         _fleets(outcomes),
         FIXED_FLEET,
     )
-    save(chart, folder / "by-scenario.png")
+    save_figure(chart, folder / "by-scenario.png")
     write_text_atomically(folder / "scenarios.csv", _scenario_table(outcomes), force)
     write_text_atomically(folder / "report.md", report(outcomes), force)
 

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from fiveroute.errors import InputError
+from fiveroute.errors import InputError, nearest
 from fiveroute.formats import (
     chao,
     csv_nodes,
@@ -30,7 +30,6 @@ from fiveroute.formats.files import (
     title_of,
     write_text_atomically,
 )
-from fiveroute.formats.json_document import nearest
 from fiveroute.formats.native import currents_file, instance_hash, relocated
 from fiveroute.formats.plan_file import PlanFile, read_plan, write_plan
 from fiveroute.formats.survey import Survey, Terms

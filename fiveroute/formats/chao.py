@@ -23,10 +23,9 @@ import re
 from collections.abc import Callable
 from functools import partial
 
-from fiveroute.errors import InputError
+from fiveroute.errors import InputError, nearest
 from fiveroute.formats.expressible import require_plain, single_endurance, spelled
 from fiveroute.formats.files import integer, non_negative, number, numbered_lines, positive
-from fiveroute.formats.json_document import nearest
 from fiveroute.instance import MAX_FLEET, Fleet, Instance, Node, Point
 
 __all__ = ["read", "write"]

@@ -8,18 +8,17 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
-from difflib import get_close_matches
 from typing import Any, TypeVar, get_args, get_type_hints
 
 import pydantic_core
 from pydantic import TypeAdapter, ValidationError
 from pydantic_core import ErrorDetails
 
-from fiveroute.errors import InputError
+from fiveroute.errors import InputError, nearest
 
-__all__ = ["layout", "nearest", "parsed", "read_document", "translated"]
+__all__ = ["layout", "parsed", "read_document", "translated"]
 
 T = TypeVar("T")
 Location = list[str | int]
@@ -183,13 +182,6 @@ def _rule(fault: ErrorDetails, location: Location, model: type) -> str:
     if kind == "too_short":
         return f"must have at least {fault['ctx']['min_length']} entries; add some"
     return f"{fault['msg'].replace('Input should be', 'must be')}; correct the value"
-
-
-def nearest(name: str, known: Iterable[str]) -> str:
-    """What to write instead of an unknown name."""
-    names = sorted(known)
-    close = get_close_matches(name, names, n=1)
-    return f"did you mean {close[0]!r}?" if close else f"known are {', '.join(names)}"
 
 
 def _keys(model: type, location: Location) -> list[str]:

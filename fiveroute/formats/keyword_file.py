@@ -21,9 +21,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.errors import InputError
+from fiveroute.errors import InputError, nearest
 from fiveroute.formats.files import integer, non_negative, number, numbered_lines
-from fiveroute.formats.json_document import nearest
 
 __all__ = ["Entry", "KeywordFile", "parse"]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +12,8 @@ from matplotlib.artist import Artist
 from matplotlib.figure import Figure
 
 from fiveroute.errors import InputError
-from fiveroute.formats.files import written_whole
 from fiveroute.plots.mission import draw_fleet, plot_mission, plot_plan, run_legs
+from fiveroute.plots.saving import save, save_figure
 from fiveroute.plots.sea import plot_sea
 from fiveroute.view.event_log import RunLog
 from fiveroute.view.scene import Scene
@@ -43,7 +43,7 @@ def write_picture(scenes: Sequence[Scene], path: Path, *, run: int | None = None
         else:
             plot_mission(scene, _run_of(scene, run), ax=ax)
     _add_legend(figure)
-    _save(path, lambda draft: figure.savefig(draft, dpi=150))
+    save_figure(figure, path)
 
 
 def write_film(
@@ -84,7 +84,7 @@ def write_film(
 
     film = FuncAnimation(figure, draw, frames=frames)
     writer = PillowWriter(fps=_FRAMES_A_SECOND)
-    _save(path, lambda draft: film.save(draft, writer=writer, dpi=_FILM_DPI))
+    save(path, lambda draft: film.save(draft, writer=writer, dpi=_FILM_DPI))
 
 
 def _freeze(figure: Figure) -> None:
@@ -120,11 +120,3 @@ def _add_legend(figure: Figure) -> None:
     """One legend for all maps: that of the largest fleet."""
     known = [ax.get_legend_handles_labels() for ax in figure.axes]
     figure.legend(*max(known, key=lambda one: len(one[0])), loc="outside lower center", ncols=8)
-
-
-def _save(path: Path, write: Callable[[Path], object]) -> None:
-    try:
-        with written_whole(path) as draft:
-            write(draft)
-    except OSError as error:
-        raise InputError(f"cannot be written ({error.strerror})", file=path) from None

@@ -12,9 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from fiveroute.errors import FiverouteError, InputError
+from fiveroute.errors import FiverouteError, InputError, nearest
 from fiveroute.formats import write_instance, write_plan
-from fiveroute.formats.json_document import nearest
 from fiveroute.formats.plan_file import PlanFile
 from fiveroute.instance import Instance
 from fiveroute.vehicle_files import VEHICLE_FORMATS, Choices, export_plan

@@ -11,9 +11,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from fiveroute.errors import InputError
+from fiveroute.errors import InputError, nearest
 from fiveroute.formats.files import write_text_atomically
-from fiveroute.formats.json_document import nearest
 from fiveroute.formats.plan_file import PlanFile
 from fiveroute.vehicle_files import (
     cola2,

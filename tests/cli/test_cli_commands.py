@@ -1,11 +1,15 @@
 """The remaining commands: help, giant-route, generate, convert, gap and plan."""
 
 import json
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterator
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import pytest
+
+from fiveroute.cli import COMMANDS
 
 SQUARE = """NAME : square
 TYPE : TSP
@@ -27,11 +31,21 @@ def test_help_and_version(call: Any) -> None:
     assert call("--version").out.startswith("fiveroute, version")
 
 
-@pytest.mark.parametrize("command", ["plan", "solve", "giant-route", "gap", "verify"])
-def test_every_command_has_help(call: Any, command: str) -> None:
-    answer = call(command, "--help")
+def every_command() -> Iterator[tuple[str, ...]]:
+    """Commands, and those below them, as they are called."""
+    for name in COMMANDS:
+        command = import_module(f"fiveroute.cli.{name.replace('-', '_')}").command
+        yield from ((name, below) for below in getattr(command, "commands", {}))
+        yield (name,)
+
+
+@pytest.mark.parametrize("command", list(every_command()), ids=" ".join)
+def test_every_command_has_help_in_one_language(call: Any, command: tuple[str, ...]) -> None:
+    answer = call(*command, "--help")
     assert answer.code == 0
-    assert "Usage: fiveroute" in answer.out
+    assert f"Usage: fiveroute {' '.join(command)}" in answer.out
+    for word in ("INTEGER", "FLOAT", "RANGE", "PATH", "NUMBER", "TEXT"):
+        assert not re.search(rf"^  --\S+ .*\b{word}\b", answer.out, re.MULTILINE), word
 
 
 @pytest.mark.parametrize("exact", [[], ["--exact"]])

@@ -25,7 +25,9 @@ def test_the_table_for_people_points_something_out(call: Any, tiny: Path) -> Non
     assert "collects most" in answer.out
 
 
-@pytest.mark.parametrize("wrong", ["", "x", "3:1:1", "1:2:0", "1:2", "1:100000:1e-3"])
+@pytest.mark.parametrize(
+    "wrong", ["", "x", "3:1:1", "1:2:0", "1:2", "1:100000:1e-3", "nan", "1,inf"]
+)
 def test_lists_that_are_none(call: Any, tiny: Path, wrong: str) -> None:
     answer = call("decide", "fleet-size", tiny, "--sizes", wrong)
     assert answer.code == 2
@@ -42,3 +44,19 @@ def test_departures_need_a_forecast(call: Any, tiny: Path) -> None:
     answer = call("decide", "departure", tiny)
     assert answer.code == 2
     assert "ocean.currents.file" in answer.err
+
+
+@pytest.mark.parametrize("name", ["sizes.jpg", "sizes", "sizes.csv"])
+def test_pictures_of_other_kinds_are_refused_before_the_work(
+    call: Any, tiny: Path, tmp_path: Path, name: str
+) -> None:
+    answer = call("decide", "fleet-size", tiny, "--picture", tmp_path / name)
+    assert answer.code == 2
+    assert ".png, .svg, .pdf" in answer.err
+
+
+def test_two_outputs_need_two_files(call: Any, tiny: Path, tmp_path: Path) -> None:
+    same = tmp_path / "sizes.csv"
+    answer = call("decide", "fleet-size", tiny, "--output", same, "--picture", same)
+    assert answer.code == 2
+    assert "two outputs" in answer.err

@@ -83,3 +83,16 @@ def test_a_reference_above_the_bound_is_told(call: Any, tiny: Path) -> None:
     answer = call("gap", tiny, "--reference", table, "--json")
     assert answer.doc["summary"]["contradictions"] == ["tiny"]
     assert "above the proven bound" in answer.err
+
+
+def test_the_slow_method_measures_what_it_takes(call: Any, tiny: Path) -> None:
+    answer = call("gap", tiny, "--method", "brute-force", "--json")
+    assert answer.doc["rows"][0]["exact_method"] == "brute-force"
+
+
+def test_an_instance_that_a_method_does_not_take_is_named(call: Any, tmp_path: Path) -> None:
+    large = tmp_path / "large.json"
+    assert call("generate", "ring", "--nodes", 10, "--output", large).code == 0
+    answer = call("gap", large, "--fleet-size", 1, "--only", "exact", "--method", "brute-force")
+    assert answer.code == 2
+    assert "large.json, nodes: 10" in answer.err

@@ -62,6 +62,46 @@ def test_wrong_calls_are_one_line(call: Any, arguments: tuple[str, ...]) -> None
     assert_refused(call(*arguments), "fiveroute: ")
 
 
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("solve", "x.json", "--gap"),
+        ("plan", "x.json", "--samples", "3", "--quantile"),
+        ("path", "x.json", "a", "b", "--depart"),
+        ("simulate", "x.json", "--loss"),
+        ("simulate", "x.json", "--reserve"),
+        ("decide", "speed", "x.json", "--battery"),
+        ("decide", "reserve", "x.json", "--accepted-late"),
+        ("decide", "ensemble", "x.json", "--alpha"),
+        ("convert", "x.json", "--to", "native", "--output", "y", "--speed"),
+        ("export", "x.json", "--to", "csv", "--output", "y", "--depth"),
+    ],
+)
+@pytest.mark.parametrize("wrong", ["nan", "inf", "-1", "much"])
+def test_what_is_no_number_is_none_of_an_option(
+    call: Any, arguments: tuple[str, ...], wrong: str
+) -> None:
+    assert_refused(call(*arguments, wrong), arguments[-1], wrong)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "meant"), [("paln", "plan"), ("giant_route", "giant-route"), ("zzz", "known are")]
+)
+def test_a_mistyped_command_is_guessed(call: Any, wrong: str, meant: str) -> None:
+    assert_refused(call(wrong), f"no such command {wrong!r}", meant)
+
+
+@pytest.mark.parametrize(("wrong", "meant"), [("strat", "'start'"), ("fra", "'far'")])
+def test_a_mistyped_stop_is_guessed(call: Any, tiny: Path, wrong: str, meant: str) -> None:
+    assert_refused(call("path", tiny, wrong, "a"), "FROM", f"did you mean {meant}?")
+
+
+@pytest.mark.parametrize("name", ["path.jpg", "path"])
+def test_a_picture_of_another_kind_is_refused(call: Any, tiny: Path, name: str) -> None:
+    answer = call("path", tiny, "a", "b", "--picture", tiny.with_name(name))
+    assert_refused(answer, name, ".png, .svg, .pdf")
+
+
 def test_an_unwritable_output_is_refused_before_the_work(call: Any, tiny: Path) -> None:
     assert_refused(call("solve", tiny, "--output", tiny.parent / "no" / "plan.json"), "no")
 

@@ -58,3 +58,24 @@ def test_a_plan_for_another_instance_is_refused(
     answer = call("verify", edited(fleet__endurance=61.0), plan)
     assert answer.code == 2
     assert "instance" in answer.err
+
+
+@pytest.mark.parametrize(
+    ("options", "word"),
+    [
+        (("--time-limit", 3), "--time-limit"),
+        (("--certificate", "x.json"), "either"),
+    ],
+)
+def test_options_that_do_nothing_are_refused(
+    call: Any, tiny: Path, plan: Path, options: tuple[object, ...], word: str
+) -> None:
+    answer = call("verify", tiny, plan, *options)
+    assert answer.code == 2
+    assert word in answer.err
+
+
+def test_a_certificate_says_itself_what_it_is_of(call: Any, tiny: Path) -> None:
+    answer = call("verify", tiny, "--certificate", "x.json", "--straight-lines")
+    assert answer.code == 2
+    assert "--straight-lines is for PLAN" in answer.err

@@ -13,7 +13,7 @@ from fiveroute.experiments.gap_table import (
     shortfalls,
     summarise,
 )
-from fiveroute.experiments.run_table import write_rows
+from fiveroute.formats.tables import write_rows
 from fiveroute.peers import PeerAnswer
 
 

@@ -1,16 +1,11 @@
-from pathlib import Path
-
 import numpy as np
-import pytest
 from matplotlib.lines import Line2D
 
-from fiveroute.errors import InputError
 from fiveroute.experiments.pictures import (
     Panel,
     completion_boxes,
     gap_profile,
     route_panels,
-    save,
 )
 from fiveroute.instance import Fleet, Instance, Node, Point
 
@@ -80,11 +75,3 @@ def test_what_was_not_proved_counts_in_the_share_over_time() -> None:
 def test_a_profile_of_nothing_is_empty() -> None:
     (axis,) = gap_profile({}, [None]).axes
     assert len(axis.lines) == 0
-
-
-def test_a_picture_appears_whole_or_not_at_all(tmp_path: Path) -> None:
-    figure = route_panels(LINE, [Panel("", ((1,), ()))])
-    save(figure, tmp_path / "map.png")
-    assert [p.name for p in tmp_path.iterdir()] == ["map.png"]
-    with pytest.raises(InputError, match="cannot be written"):
-        save(figure, tmp_path / "no" / "map.png")

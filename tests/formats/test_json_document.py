@@ -8,7 +8,7 @@ from pydantic import ConfigDict, Field
 from pydantic.dataclasses import dataclass
 
 from fiveroute.errors import InputError
-from fiveroute.formats.json_document import layout, nearest, read_document
+from fiveroute.formats.json_document import layout, read_document
 
 VALUE = st.recursive(
     st.none() | st.booleans() | st.floats(allow_nan=False, allow_infinity=False) | st.text(),
@@ -35,11 +35,6 @@ def test_layout_keeps_plain_containers_on_one_line() -> None:
         '  "c": {}',
         "}",
     ]
-
-
-def test_nearest_name() -> None:
-    assert nearest("tmx", ["n", "m", "tmax"]) == "did you mean 'tmax'?"
-    assert nearest("zzz", ["n", "m"]) == "known are m, n"
 
 
 _STRICT = ConfigDict(extra="forbid", strict=True)

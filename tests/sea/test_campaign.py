@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from fiveroute.errors import InputError
-from fiveroute.experiments.run_table import event_lines, require_table, write_table
+from fiveroute.experiments.run_table import event_lines, write_table
 from fiveroute.instance import Fleet, Instance, Node, Point
 from fiveroute.limits import Limits, Progress
 from fiveroute.routes import Plan
@@ -102,8 +102,3 @@ def test_a_row_a_run(tmp_path: Path, suffix: str) -> None:
         table = pytest.importorskip("pyarrow.parquet").read_table(path)
         assert table["completion"].to_pylist() == result.completions.tolist()
     assert [file.name for file in tmp_path.iterdir()] == [path.name]
-
-
-def test_a_table_of_another_kind_is_refused() -> None:
-    with pytest.raises(InputError, match=r"ends in \.parquet, \.csv or \.md"):
-        require_table(Path("runs.xlsx"))

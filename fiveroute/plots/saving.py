@@ -1,0 +1,33 @@
+"""Figures and films as files, each whole or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from fiveroute.errors import InputError
+from fiveroute.formats.files import written_whole
+
+__all__ = ["save", "save_figure"]
+
+
+def save(path: Path, write: Callable[[Path], object]) -> None:
+    """Have a file written, by a function that is handed the name of a draft.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+    """
+    try:
+        with written_whole(path) as draft:
+            write(draft)
+    except OSError as error:
+        raise InputError(f"cannot be written ({error.strerror})", file=path) from None
+
+
+def save_figure(figure: Figure, path: Path) -> None:
+    """Write a figure; the suffix chooses the format."""
+    save(path, lambda draft: figure.savefig(draft, dpi=150))
