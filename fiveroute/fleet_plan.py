@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 from fiveroute.instance import Instance
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.paths.voyage import Voyage
-from fiveroute.problem import TeamOrienteering
+from fiveroute.problem import TeamOrienteering, completion_rate
 from fiveroute.result import Result, Status
 
 if TYPE_CHECKING:
@@ -93,8 +93,7 @@ class FleetPlan:
         """Theta, equation (31): collected data over all data, nodes out of reach included."""
         if self.objective is None:
             return None
-        total = sum(node.data for node in self.instance.nodes)
-        return self.objective / total if total > 0.0 else 1.0
+        return completion_rate(self.objective, self.instance.total_data)
 
     @property
     def fleet_size(self) -> int:
@@ -235,12 +234,12 @@ class FleetPlan:
         target = Path(path)
         export_plan(self.filed(), target, format_name, target, choices, force)
 
-    def _repr_html_(self) -> str | None:
+    def _repr_html_(self) -> str:
         """A small map and a table, for notebooks."""
-        if self.result.plan is None:
-            return None
-        from fiveroute.view.notebook import plan_html
+        from fiveroute.view.notebook import no_plan_html, plan_html
 
+        if self.result.plan is None:
+            return no_plan_html(self.instance.name, self.status)
         return plan_html(self.filed())
 
     def __str__(self) -> str:

@@ -375,6 +375,11 @@ class Instance:
         )
 
     @property
+    def total_data(self) -> float:
+        """Data of all nodes together, those out of reach included."""
+        return float(sum(node.data for node in self.nodes))
+
+    @property
     def fleet_size(self) -> int | None:
         """Number of AUVs that the file states; None leaves it to tier 1."""
         endurance = self.fleet.endurance

@@ -86,13 +86,12 @@ class MissionPlan:
 
     def _repr_html_(self) -> str:
         """A small map and a table, for notebooks."""
-        from html import escape
-
         from fiveroute.formats.plan_file import PlanFile
+        from fiveroute.view.notebook import no_plan_html, plan_html
 
         if self.result.plan is None:
-            return f"<div><b>{escape(self.instance.name)}</b>: {self.result.status}</div>"
-        return PlanFile.of(self.instance, self.problem, self.result)._repr_html_()
+            return no_plan_html(self.instance.name, self.result.status)
+        return plan_html(PlanFile.of(self.instance, self.problem, self.result))
 
 
 def plan_mission(

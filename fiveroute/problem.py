@@ -16,10 +16,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from fiveroute.errors import InputError
 
-__all__ = ["TIME_TOLERANCE", "TeamOrienteering"]
+__all__ = ["TIME_TOLERANCE", "TeamOrienteering", "completion_rate"]
 
 TIME_TOLERANCE = 1e-9
 """Relative excess over a budget that is put down to rounding, not to the route."""
+
+
+def completion_rate(collected: float, total: float) -> float:
+    """Theta, equation (31): collected data over all data; where there is none, all of it."""
+    return collected / total if total > 0.0 else 1.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from fiveroute.check import Violation, check, check_claims
 from fiveroute.formats.plan_file import PlanFile
 from fiveroute.instance import Instance
+from fiveroute.problem import completion_rate
 from fiveroute.routes import Plan
 
 if TYPE_CHECKING:
@@ -86,10 +87,10 @@ def judge(
     violations += check(problem, filed.plan)
     if not violations:
         violations = check_claims(problem, filed.plan, filed.objective, filed.durations)
-    objective, total = known.objective(problem), problem.total_profit
+    objective = known.objective(problem)
     return Verdict(
         objective=objective,
-        completion_rate=objective / total if total > 0.0 else 1.0,
+        completion_rate=completion_rate(objective, problem.total_profit),
         durations=known.durations(problem),
         violations=tuple(violations),
     )

@@ -47,7 +47,12 @@ def test_a_plan_knows_its_gap(sea: fr.Instance) -> None:
     assert max(plan.durations) <= 9000.0 * (1 + 1e-9)
     assert plan.verify().feasible
     assert str(plan).count("AUV") == 2
-    assert "<svg" in (plan._repr_html_() or "")
+    assert "<svg" in plan._repr_html_()
+
+
+def test_a_mission_without_a_plan_shows_that(sea: fr.Instance) -> None:
+    far = replace(sea, nodes=(), fleet=replace(sea.fleet, endurance=1.0))
+    assert fr.plan(far)._repr_html_().endswith(": infeasible</div>")
 
 
 def test_an_exact_method_proves_no_less(sea: fr.Instance) -> None:

@@ -35,7 +35,7 @@ from fiveroute.ocean.stated import stated_current
 from fiveroute.ocean.uncertain_ocean import VortexUncertainty, draw_truth
 from fiveroute.paths.legs import track_time
 from fiveroute.paths.voyage import Voyage
-from fiveroute.problem import TeamOrienteering
+from fiveroute.problem import TeamOrienteering, completion_rate
 from fiveroute.routes import Plan
 from fiveroute.tiers.pathing import waters_of
 
@@ -143,8 +143,8 @@ def plan_against_ensemble(
     if not 0.0 < alpha <= 1.0:
         raise InputError("must be above 0 and at most 1", field="alpha", value=alpha)
     clock = (limits or Limits()).start()
-    total = sum(node.data for node in voyage.mission.nodes)
-    within_reach = 1.0 - voyage.out_of_reach / total if total > 0.0 else 1.0
+    total = voyage.mission.total_data
+    within_reach = completion_rate(total - voyage.out_of_reach, total)
     training = np.array(times[: len(times) - held_out])
     wanted = _wanted(voyage, training)
     candidates: list[Candidate] = []
@@ -233,8 +233,7 @@ def recourse_completion(problem: TeamOrienteering, plan: Plan, travel: Floats) -
             if there + travel[node, home] <= budget:
                 now, place = there, node
                 collected.append(node)
-    total = problem.total_profit
-    return problem.collected(collected) / total if total > 0.0 else 1.0
+    return completion_rate(problem.collected(collected), problem.total_profit)
 
 
 def cvar(rates: Sequence[float], alpha: float) -> float:

@@ -14,6 +14,7 @@ import numpy as np
 
 from fiveroute.fleet_plan import FleetPlan
 from fiveroute.limits import Clock, Limits, Progress, ProgressCallback
+from fiveroute.problem import completion_rate
 
 __all__ = ["Row", "Sweep", "figures", "vary"]
 
@@ -97,14 +98,13 @@ def vary(
 
 def figures(plan: FleetPlan) -> dict[str, Value]:
     """The columns of a plan that sweeps have in common."""
-    total = sum(node.data for node in plan.instance.nodes)
-    share = None if plan.bound is None else plan.bound / total if total > 0.0 else 1.0
+    total, bound = plan.instance.total_data, plan.bound
     return {
         "status": plan.status.value,
         "objective": plan.objective,
         "completion_rate": plan.completion_rate,
-        "bound": plan.bound,
-        "bound_rate": None if share is None else min(share, 1.0),
+        "bound": bound,
+        "bound_rate": None if bound is None else min(completion_rate(bound, total), 1.0),
         "gap": plan.gap,
         "nodes": sum(map(len, plan.routes)),
         "mean_duration": float(np.mean(plan.durations)) if plan.durations else None,

@@ -94,7 +94,7 @@ class Case:
     @property
     def planned(self) -> float:
         """Completion rate of the plan."""
-        return self.plan.objective(self.theatre.problem) / self.theatre.problem.total_profit
+        return self.theatre.completion(self.plan.objective(self.theatre.problem))
 
     @property
     def gains(self) -> NDArray[np.float64]:

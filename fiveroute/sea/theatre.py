@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fiveroute.instance import Instance, Uncertainty
 from fiveroute.limits import Limits
-from fiveroute.problem import TeamOrienteering
+from fiveroute.problem import TeamOrienteering, completion_rate
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.sailed_luck import SailedLuck, VehicleModel
 from fiveroute.tiers.actuation import LegLaw, leg_law, uncertainty_of
@@ -79,9 +79,8 @@ class Theatre:
         return cls(problem, law, instance.points, lengths_km, out_of_reach=out_of_reach)
 
     def completion(self, collected: float) -> float:
-        """Completion rate theta, (31), of collected data; with none to collect, all of it is."""
-        total = self.problem.total_profit + self.out_of_reach
-        return collected / total if total > 0.0 else 1.0
+        """Completion rate theta, (31), of the whole mission, of collected data."""
+        return completion_rate(collected, self.problem.total_profit + self.out_of_reach)
 
     def sailed_by(
         self, model: VehicleModel, seed: int = 0, *, limits: Limits | None = None

@@ -86,7 +86,7 @@ class Job:
         """Begin, once another job is over."""
         self.limits = Limits(self.wish.seconds)
         self.clock = self.limits.start()
-        self.bound = sum(node.data for node in self.instance.nodes)
+        self.bound = self.instance.total_data
         self.thread = threading.Thread(target=self._run, args=(after,), daemon=True)
         self.thread.start()
 

@@ -15,7 +15,7 @@ from fiveroute.colours import COLOURS
 from fiveroute.formats.plan_file import PlanFile
 from fiveroute.result import optimality_gap
 
-__all__ = ["plan_html"]
+__all__ = ["no_plan_html", "plan_html"]
 
 Floats = NDArray[np.float64]
 
@@ -42,6 +42,11 @@ def plan_html(plan: PlanFile) -> str:
         f"<div><b>{escape(plan.instance.name)}</b>: {escape(', '.join(figures))}<br>"
         f"{_map(plan)}<table>{head}{rows}</table></div>"
     )
+
+
+def no_plan_html(name: str, status: str) -> str:
+    """What is to be said of a mission without a plan."""
+    return f"<div><b>{escape(name)}</b>: {escape(status)}</div>"
 
 
 def _rows(plan: PlanFile) -> Iterator[str]:
