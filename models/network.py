@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from fiveroute.kernels import kernel
 from fiveroute.problem import TeamOrienteering
 
-__all__ = ["Network"]
+__all__ = ["Network", "shortest_ways"]
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -65,8 +65,8 @@ class Network:
             problem,
             budgets * _SAFE,
             tuple(tuple(np.flatnonzero(member == c).tolist()) for c in range(len(budgets))),
-            _shortest(problem.travel, problem.service, 0, False),
-            _shortest(problem.travel, problem.service, problem.destination, True),
+            shortest_ways(problem.travel, problem.service, 0, False),
+            shortest_ways(problem.travel, problem.service, problem.destination, True),
         )
 
     @property
@@ -138,7 +138,7 @@ class Network:
 
 
 @kernel
-def _shortest(travel: Floats, service: Floats, origin: int, backwards: bool) -> Floats:
+def shortest_ways(travel: Floats, service: Floats, origin: int, backwards: bool) -> Floats:
     """Dijkstra's algorithm on the full matrix; a leg costs its time and the service at its head.
 
     No path passes through the start or the destination on its way.

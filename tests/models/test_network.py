@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from fiveroute.models.network import Network
 from fiveroute.models.reach import usable_legs
@@ -55,6 +56,14 @@ def test_no_leg_enters_the_start_or_stays_where_it_is() -> None:
     assert not usable[np.arange(4), np.arange(4)].any()
 
 
+def bellman_ford(ways: NDArray[np.float64], origin: int) -> NDArray[np.float64]:
+    length = np.full(len(ways), np.inf)
+    length[origin] = 0.0
+    for _ in ways:
+        length = np.minimum(length, (length[:, None] + ways).min(axis=0))
+    return length
+
+
 @settings(deadline=None, max_examples=40)
 @given(st.integers(0, 7), st.integers(0, 2**32 - 1))
 def test_agrees_with_an_independent_computation(n: int, seed: int) -> None:
@@ -63,6 +72,10 @@ def test_agrees_with_an_independent_computation(n: int, seed: int) -> None:
     service = np.pad(rng.uniform(0.0, 3.0, n), 1)
     problem = TeamOrienteering(travel, service, np.pad(np.ones(n), 1), rng.uniform(1.0, 25.0, 3))
     network, legs = Network.of(problem), usable_legs(problem)
+    ways = travel + service
+    ways[:, 0] = ways[-1, :] = np.inf
+    np.testing.assert_allclose(network.earliest, bellman_ford(ways, 0))
+    np.testing.assert_allclose(network.remaining, bellman_ford(ways.T, n + 1))
     usable = network.usable(np.arange(n + 1))
     assert np.array_equal(usable[:, : n + 1], legs[:, : n + 1, : n + 1].any(axis=0))
     for c, auvs in enumerate(network.members):
