@@ -2,8 +2,7 @@
 
 The truth is drawn from the forecast. In a forecast of vortices each vortex is somewhere else,
 stronger or weaker than was thought, or not there at all, and there are others that nobody knew
-of. In an ensemble, the forecast centres' own way to tell how sure they are, the truth is one of
-the members. An ocean that nobody forecast at all is one with every vortex missing and as many new.
+of. An ocean that nobody forecast at all is one with every vortex missing and as many new.
 
 A truth takes the same random numbers for each vortex of the forecast whatever the uncertainty:
 twice the displacement moves the same vortices twice as far in the same directions.
@@ -12,9 +11,7 @@ twice the displacement moves the same vortices twice as far in the same directio
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeVar
 
 import numpy as np
 
@@ -22,9 +19,7 @@ from fiveroute.errors import InputError
 from fiveroute.ocean.currents import LambVortices
 from fiveroute.ocean.random_vortices import EFFECTIVE, VortexKind, draw_vortices
 
-__all__ = ["VortexUncertainty", "draw_member", "draw_truth"]
-
-C = TypeVar("C")
+__all__ = ["VortexUncertainty", "draw_truth"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,10 +90,3 @@ def draw_truth(
         np.concatenate([(forecast.circulation * factor)[there], more.circulation]),
         np.concatenate([forecast.radius[there], more.radius]),
     )
-
-
-def draw_member(ensemble: Sequence[C], rng: np.random.Generator) -> C:
-    """Draw the truth from an ensemble of currents, or of files of them, all equally likely."""
-    if not ensemble:
-        raise InputError("an ensemble needs a member; name at least one", field="ensemble")
-    return ensemble[int(rng.integers(len(ensemble)))]

@@ -11,15 +11,13 @@ An insertion that costs less than a second counts as one second, so that psi sta
 
 from __future__ import annotations
 
-from collections.abc import Collection
-
 import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
 from fiveroute.sea.course import Course, Outlook, Stops, time_in_hand
 
-__all__ = ["Offers", "offers", "pick_up_alone"]
+__all__ = ["Offers", "offers"]
 
 Offers = tuple[NDArray[np.float64], NDArray[np.int64]]
 """Ratios psi and positions of insertion, both in the order of the idle nodes."""
@@ -42,30 +40,6 @@ def offers(view: Outlook, course: Course, idle: NDArray[np.int64]) -> Offers:
     left = course.budget - course.time
     _offer(view, stops, len(stops) - 1, left, course.spread, idle, psi, place)
     return psi, place
-
-
-def pick_up_alone(
-    view: Outlook, course: Course, idle: Collection[int]
-) -> tuple[Course, tuple[int, ...]]:
-    """Insert idle nodes in decreasing order of psi, as an AUV without rivals does.
-
-    Returns
-    -------
-    course
-        The longer course.
-    picked
-        The nodes inserted, in their order.
-    """
-    left, picked = np.array(sorted(idle), dtype=np.int64), []
-    while len(left):
-        psi, place = offers(view, course, left)
-        best = int(psi.argmax())
-        if psi[best] <= 0.0:
-            break
-        picked.append(int(left[best]))
-        course = course.with_node(picked[-1], int(place[best]))
-        left = np.delete(left, best)
-    return course, tuple(picked)
 
 
 @kernel

@@ -23,11 +23,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from fiveroute.sea.auction import assign_by_auction
-from fiveroute.sea.course import Course, Outlook, in_hand
+from fiveroute.sea.course import Course, Outlook
 from fiveroute.sea.discarding import discard
 from fiveroute.sea.picking import offers
 
-__all__ = ["Award", "assign_idle_nodes", "coordinate", "is_short_of_time"]
+__all__ = ["Award", "assign_idle_nodes", "coordinate"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,11 +44,6 @@ class Award:
 
     auv: int
     node: int
-
-
-def is_short_of_time(view: Outlook, course: Course) -> bool:
-    """Whether an AUV finds (24): what remains takes longer than the time that is left."""
-    return in_hand(view, course) < 0.0
 
 
 def assign_idle_nodes(

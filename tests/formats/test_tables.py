@@ -1,11 +1,12 @@
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from fiveroute.errors import InputError
 from fiveroute.formats.tables import require_table, write_rows
 
-ROWS = [{"name": "a, b", "value": 1.5}, {"name": "c", "value": None}]
+ROWS: list[dict[str, Any]] = [{"name": "a, b", "value": 1.5}, {"name": "c", "value": None}]
 
 
 def test_csv_has_a_line_a_row(tmp_path: Path) -> None:

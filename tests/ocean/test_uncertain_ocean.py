@@ -1,16 +1,15 @@
 """Truths drawn from a forecast: their statistics, and what a seed means."""
 
 import math
-from collections import Counter
 from typing import Any
 
 import numpy as np
 import pytest
 
 from fiveroute.errors import InputError
-from fiveroute.ocean.currents import LambVortices, UniformCurrent
+from fiveroute.ocean.currents import LambVortices
 from fiveroute.ocean.random_vortices import EFFECTIVE, PRINTED, draw_vortices
-from fiveroute.ocean.uncertain_ocean import VortexUncertainty, draw_member, draw_truth
+from fiveroute.ocean.uncertain_ocean import VortexUncertainty, draw_truth
 
 SQUARE = (0.0, 0.0, 10_000.0, 10_000.0)
 ALL = VortexUncertainty(displacement=300.0, strength=0.4, missing=0.25, unforeseen=6.0)
@@ -102,22 +101,6 @@ def test_more_uncertainty_goes_farther_the_same_way() -> None:
     np.testing.assert_allclose(far.x - known.x, 2.0 * (near.x - known.x), atol=1e-9)
     rare, often = (truth(VortexUncertainty(missing=p), 8) for p in (0.2, 0.6))
     assert set(often.radius) < set(rare.radius) < set(known.radius)
-
-
-def test_every_member_is_drawn_equally_often() -> None:
-    ensemble = [UniformCurrent(0.1 * k, 0.0) for k in range(4)]
-    rng = np.random.default_rng(9)
-    counts = Counter(draw_member(ensemble, rng) for _ in range(4000))
-    assert set(counts) == set(ensemble)
-    assert all(abs(count - 1000) < 4.0 * math.sqrt(4000 * 0.25 * 0.75) for count in counts.values())
-
-
-def test_an_ensemble_may_be_of_files_and_is_seeded() -> None:
-    files = ("a.nc", "b.nc", "c.nc")
-    drawn = [[draw_member(files, np.random.default_rng(seed)) for seed in range(9)] for _ in "12"]
-    assert drawn[0] == drawn[1]
-    with pytest.raises(InputError, match="ensemble: an ensemble needs a member"):
-        draw_member([], np.random.default_rng(1))
 
 
 @pytest.mark.parametrize("field", ["displacement", "strength", "missing", "unforeseen"])

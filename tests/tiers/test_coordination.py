@@ -9,14 +9,9 @@ from fiveroute.instance import Uncertainty
 from fiveroute.problem import TeamOrienteering
 from fiveroute.sea.course import LONGEST_LEG, Course, Outlook, in_hand, outlook
 from fiveroute.sea.discarding import discard
-from fiveroute.sea.picking import offers, pick_up_alone
+from fiveroute.sea.picking import offers
 from fiveroute.tiers.actuation import leg_law
-from fiveroute.tiers.coordination import (
-    Award,
-    assign_idle_nodes,
-    coordinate,
-    is_short_of_time,
-)
+from fiveroute.tiers.coordination import Award, assign_idle_nodes, coordinate
 
 CALM = Uncertainty(floor=1.0)
 ROUGH = Uncertainty(0.2, 0.5, 120.0, 0.2)
@@ -38,8 +33,8 @@ def course(budget: float, *route: int, anchor: int = 0, time: float = 0.0) -> Co
 
 def test_the_trigger_is_24() -> None:
     view = line([100.0, 300.0], [1.0, 1.0])
-    assert not is_short_of_time(view, course(600.0, 1, 2))
-    assert is_short_of_time(view, course(600.0, 1, 2, time=1.0))
+    assert in_hand(view, course(600.0, 1, 2)) == pytest.approx(0.0, abs=1e-6)
+    assert in_hand(view, course(600.0, 1, 2, time=1.0)) == pytest.approx(-1.0)
     assert in_hand(view, course(650.0, 1, 2)) == pytest.approx(50.0)
 
 
@@ -83,13 +78,6 @@ def test_psi_is_data_per_added_second_at_the_best_place() -> None:
 def test_a_free_insertion_counts_as_a_second() -> None:
     view = line([100.0, 200.0], [2.0, 1.0])
     assert offers(view, course(400.0, 2), np.array([1]))[0].tolist() == [2.0]
-
-
-def test_alone_the_greatest_psi_comes_first() -> None:
-    view = line([100.0, 200.0, 300.0], [1.0, 1.0, 1.0])
-    longer, picked = pick_up_alone(view, course(400.0), {1, 2, 3})
-    assert picked == (1, 2)
-    assert sorted(longer.route) == [1, 2]
 
 
 def test_several_nodes_go_in_one_round_and_some_stay_idle() -> None:
