@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -152,7 +151,3 @@ class GiantRouteResult:
         if self.bound is None:
             return None
         return max(self.duration - self.bound, 0.0) / max(self.duration, 1e-12)
-
-
-SolveMethod = Callable[..., Result]
-"""``solve(problem, limits, *, warm_start=None, progress=None) -> Result``"""

@@ -216,11 +216,6 @@ class Program:
         """Row multipliers of the last linear solve: change of the objective a unit of each row."""
         return np.array(self.highs.getSolution().row_dual, dtype=np.float64)
 
-    @property
-    def reduced_costs(self) -> Values:
-        """Reduced costs of the last linear solve."""
-        return np.array(self.highs.getSolution().col_dual, dtype=np.float64)
-
     def _run(self) -> Outcome | None:
         # HiGHS adds up the run times of one object and holds the sum against its limit.
         self.set("time_limit", min(self.highs.getRunTime() + self._clock.left, highspy.kHighsInf))

@@ -69,11 +69,6 @@ class PowerModel:
         """T_max(v) in seconds with a battery in watt-hours."""
         return battery * _JOULE / self.power(speed)
 
-    @property
-    def farthest_speed(self) -> float:
-        """v* in metres per second: the speed that goes farthest in still water."""
-        return float((self.hotel / (2.0 * self.propulsion)) ** (1.0 / 3.0))
-
 
 def sweep_speeds(
     instance: Instance,

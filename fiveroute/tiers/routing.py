@@ -75,11 +75,6 @@ class Routing:
         """Nodes that trimming took out."""
         return Plan(self.sub_routes).visited - Plan(self.trimmed).visited
 
-    @property
-    def added_again(self) -> frozenset[int]:
-        """Dropped nodes that are on the optimised routes after all."""
-        return self.dropped & self.plan.visited
-
 
 def plan_routes(
     problem: TeamOrienteering,

@@ -70,8 +70,7 @@ def test_the_stages_are_those_of_the_picture() -> None:
     for before, after in zip(start, routing.trimmed, strict=True):
         assert [node for node in before if node in after] == list(after)
     assert routing.dropped == set(range(1, 61)) - Plan(routing.trimmed).visited
-    assert routing.added_again == routing.dropped & routing.plan.visited
-    assert routing.added_again
+    assert routing.dropped & routing.plan.visited  # some come back
 
 
 def test_the_exchange_collects_more_than_the_letter() -> None:
