@@ -84,15 +84,6 @@ class MissionPlan:
         """The sub-routes, one per AUV, that Algorithm 1 made its routes of."""
         return () if self.routing is None else self.routing.sub_routes
 
-    def _repr_html_(self) -> str:
-        """A small map and a table, for notebooks."""
-        from fiveroute.formats.plan_file import PlanFile
-        from fiveroute.view.notebook import no_plan_html, plan_html
-
-        if self.result.plan is None:
-            return no_plan_html(self.instance.name, self.result.status)
-        return plan_html(PlanFile.of(self.instance, self.problem, self.result))
-
 
 def plan_mission(
     instance: Instance,

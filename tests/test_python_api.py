@@ -50,11 +50,6 @@ def test_a_plan_knows_its_gap(sea: fr.Instance) -> None:
     assert "<svg" in plan._repr_html_()
 
 
-def test_a_mission_without_a_plan_shows_that(sea: fr.Instance) -> None:
-    far = replace(sea, nodes=(), fleet=replace(sea.fleet, endurance=1.0))
-    assert fr.plan(far)._repr_html_().endswith(": infeasible</div>")
-
-
 def test_an_exact_method_proves_no_less(sea: fr.Instance) -> None:
     plan, proved = fr.plan(sea), fr.solve(sea)
     assert proved.status is fr.Status.OPTIMAL

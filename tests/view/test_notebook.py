@@ -1,9 +1,9 @@
 from dataclasses import replace
 from html.parser import HTMLParser
 
+from fiveroute.fleet_plan import plan as plan_fleet
 from fiveroute.formats.plan_file import PlanFile
 from fiveroute.instance import Fleet, Instance, Point
-from fiveroute.mission import plan_mission
 from fiveroute.view.notebook import plan_html
 
 
@@ -32,14 +32,14 @@ def test_names_stay_text(plan: PlanFile) -> None:
     assert not {"script", "img"} & set(tags(plan_html(plan)))
 
 
-def test_mission_plan_shows_itself(plan: PlanFile) -> None:
-    planned = plan_mission(replace(plan.instance, name="still"), seed=1)
+def test_a_plan_of_a_fleet_shows_itself(plan: PlanFile) -> None:
+    planned = plan_fleet(replace(plan.instance, name="still"), seed=1)
     assert planned._repr_html_().startswith("<div><b>still</b>")
 
 
 def test_mission_without_a_plan_says_so() -> None:
     far = Instance("far", (), Point(0.0, 0.0), Point(9.0, 0.0), Fleet(1, 1.0, 1.0))
-    assert plan_mission(far)._repr_html_() == "<div><b>far</b>: infeasible</div>"
+    assert plan_fleet(far)._repr_html_() == "<div><b>far</b>: infeasible</div>"
 
 
 def test_long_lists_are_cut(plan: PlanFile) -> None:
@@ -51,4 +51,4 @@ def test_long_lists_are_cut(plan: PlanFile) -> None:
 
 def test_plan_of_an_empty_map() -> None:
     lonely = Instance("lonely", (), Point(5.0, 5.0), Point(5.0, 5.0), Fleet(1, 1.0, 1.0))
-    assert "nan" not in plan_mission(lonely)._repr_html_()
+    assert "nan" not in plan_fleet(lonely)._repr_html_()
