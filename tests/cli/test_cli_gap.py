@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from fiveroute.cli.answers import gap_text
 from fiveroute.cli.gap import PEERS
 from fiveroute.cli.gap_answer import print_gaps
 from fiveroute.experiments.gap_table import summarise
@@ -96,3 +97,8 @@ def test_an_instance_that_a_method_does_not_take_is_named(call: Any, tmp_path: P
     answer = call("gap", large, "--fleet-size", 1, "--only", "exact", "--method", "brute-force")
     assert answer.code == 2
     assert "large.json, nodes: 10" in answer.err
+
+
+def test_gaps_are_read_by_people() -> None:
+    texts = [gap_text(gap) for gap in (None, 0.0, 0.125, 6.5e12)]
+    assert texts == ["unknown", "0 (optimal)", "12.50 %", "endless (nothing collected)"]
