@@ -8,15 +8,20 @@ from typing import Any
 
 from fiveroute.formats.tables import write_rows
 from fiveroute.instance import Instance
+from fiveroute.sea.events import Event, arrivals_of
 from fiveroute.sea.simulation import SimulationResult
 
 __all__ = ["event_lines", "write_table"]
 
 
 def event_lines(instance: Instance, result: SimulationResult) -> str:
-    """A JSON document a line for every event: run, t in seconds, auv from 0, kind, node."""
+    """A JSON document a line for every event: run, t in seconds, auv from 0, kind, node, message.
+
+    A message that is sent tells who heard it, and when.
+    """
     lines = []
     for run in result.runs:
+        arrivals = arrivals_of(run.events)
         for event in run.events:
             line: dict[str, Any] = {
                 "run": run.run,
@@ -26,8 +31,19 @@ def event_lines(instance: Instance, result: SimulationResult) -> str:
             }
             if event.node is not None:
                 line["node"] = instance.nodes[event.node - 1].id
+            if event.frame is not None:
+                line["message"] = _message(event, arrivals.get(event.frame.number, {}))
             lines.append(json.dumps(line, allow_nan=False) + "\n")
     return "".join(lines)
+
+
+def _message(event: Event, arrivals: Mapping[int, float]) -> dict[str, Any]:
+    assert event.frame is not None
+    number, sender, receiver, says, bits = event.frame
+    told = {"number": number, "kind": says, "sender": sender, "receiver": receiver, "bits": bits}
+    if event.kind != "send":
+        return told
+    return told | {"heard": [{"auv": auv, "t": float(t)} for auv, t in arrivals.items()]}
 
 
 def write_table(result: SimulationResult, path: Path, force: bool = False) -> None:

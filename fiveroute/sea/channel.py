@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
+from fiveroute.sea.events import Frame
 from fiveroute.sea.messages import Message
 from fiveroute.sea.voyage import Vessel, Voyage
 
@@ -173,10 +174,12 @@ class Radio:
         if not vessels[auv].is_alive:
             self._waiting[auv].clear()
             return
+        bits = message.bits(self.voyage.problem.n)
+        frame = Frame(self.sent, auv, message.receiver, message.says, bits)
         self.sent += 1
-        self.voyage.note(t, auv, "send")
+        self.voyage.note(t, auv, "send", frame=frame)
         here = self._position(vessels[auv], t)
-        spoken = t + message.bits(self.voyage.problem.n) / self.channel.bit_rate
+        spoken = t + bits / self.channel.bit_rate
         for other in range(len(vessels)):
             if other == auv or message.receiver not in (None, other):
                 continue
@@ -185,14 +188,14 @@ class Radio:
                 continue
             late = self.channel.jitter * float(self.rng.random()) if self.channel.jitter else 0.0
             heard = spoken + distance / SOUND_SPEED + late
-            self.voyage.plan(heard, partial(self._deliver, other, message))
+            self.voyage.plan(heard, partial(self._deliver, other, message, frame))
         if self._waiting[auv]:
             self._take_turn(auv, t)
 
-    def _deliver(self, auv: int, message: Message, t: float) -> None:
+    def _deliver(self, auv: int, message: Message, frame: Frame, t: float) -> None:
         if self.voyage.vessels[auv].is_alive:
             self.delivered += 1
-            self.voyage.note(t, auv, "receive")
+            self.voyage.note(t, auv, "receive", frame=frame)
             self.hear(t, auv, message)
 
     def _is_lost(self, sender: int, receiver: int) -> bool:

@@ -15,7 +15,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from fiveroute.sea.events import Event
+from fiveroute.sea.events import Event, Frame
 from fiveroute.sea.simulation import RunResult
 
 __all__ = ["Journal"]
@@ -66,12 +66,17 @@ def _run(line: str) -> RunResult | None:
         rest = json.loads(line)
         return RunResult(
             arrivals=tuple(math.inf if t is None else float(t) for t in rest.pop("arrivals")),
-            events=tuple(Event(*event) for event in rest.pop("events")),
+            events=tuple(map(_event, rest.pop("events"))),
             legs=tuple(tuple(map(tuple, legs)) for legs in rest.pop("legs")),
             **rest,
         )
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None
+
+
+def _event(entry: list[Any]) -> Event:
+    event = Event(*entry)
+    return event if event.frame is None else event._replace(frame=Frame(*event.frame))
 
 
 def _plain(number: Any) -> Any:

@@ -58,6 +58,11 @@ class Message:
 
     words: ClassVar[int] = 0
 
+    @property
+    def says(self) -> str:
+        """What kind of message it is, in a word."""
+        return type(self).__name__.lower()
+
     def bits(self, n: int) -> int:
         """Length of the frame in a mission of n nodes."""
         return HEADER_BITS + WORD_BITS * self.words

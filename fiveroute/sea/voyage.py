@@ -17,7 +17,7 @@ from typing import Protocol
 
 from fiveroute.problem import TeamOrienteering
 from fiveroute.sea.course import Course, Outlook
-from fiveroute.sea.events import Event, Kind
+from fiveroute.sea.events import Event, Frame, Kind
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.sailed_luck import SailedLuck
 
@@ -105,9 +105,16 @@ class Voyage:
     def __post_init__(self) -> None:
         self.vessels = [Vessel(float(budget)) for budget in self.problem.budgets]
 
-    def note(self, t: float, auv: int, kind: Kind, node: int | None = None) -> None:
+    def note(
+        self,
+        t: float,
+        auv: int,
+        kind: Kind,
+        node: int | None = None,
+        frame: Frame | None = None,
+    ) -> None:
         """Write an event into the log."""
-        self.log.append(Event(t, auv, kind, node))
+        self.log.append(Event(t, auv, kind, node, frame))
 
     def plan(self, t: float, action: Action) -> None:
         """Let something happen at a time in seconds."""

@@ -15,7 +15,7 @@ from fiveroute.errors import InputError
 from fiveroute.formats.files import numbered_lines, read_text
 from fiveroute.formats.json_document import translated
 from fiveroute.formats.plan_file import PlanFile
-from fiveroute.sea.events import Event, Kind
+from fiveroute.sea.events import Event, Frame, Kind
 
 __all__ = ["RunLog", "read_events", "run_logs"]
 
@@ -36,6 +36,25 @@ class RunLog:
     events: tuple[Event, ...]
 
 
+_Whole = Annotated[int, Field(ge=0, lt=2**53)]
+
+
+@validated(frozen=True, slots=True, config=ConfigDict(extra="forbid", strict=True))
+class _Heard:
+    auv: _Whole
+    t: Annotated[NonNegativeFloat, Field(allow_inf_nan=False)]
+
+
+@validated(frozen=True, slots=True, config=ConfigDict(extra="forbid", strict=True))
+class _Message:
+    number: _Whole
+    kind: Annotated[str, Field(max_length=40)]
+    sender: _Whole
+    receiver: _Whole | None
+    bits: _Whole
+    heard: tuple[_Heard, ...] = ()
+
+
 @validated(frozen=True, slots=True, config=ConfigDict(extra="forbid", strict=True))
 class _Line:
     run: Annotated[int, Field(ge=0)]
@@ -43,6 +62,7 @@ class _Line:
     auv: Annotated[int, Field(ge=0)]
     kind: Kind
     node: str | None = None
+    message: _Message | None = None
 
 
 _LINE = TypeAdapter(_Line)
@@ -52,6 +72,16 @@ _AT_NODES = ("collect", "discard", "pick_up")
 class _Names(NamedTuple):
     vertices: Mapping[str, int]
     fleet_size: int
+
+    def require_auv(self, field: str, auv: int) -> None:
+        """Refuse an AUV that the plan does not have."""
+        if auv >= self.fleet_size:
+            raise InputError(
+                f"the plan has {self.fleet_size} AUVs, counted from 0; use the plan that was "
+                f"sailed",
+                field=field,
+                value=auv,
+            )
 
 
 def read_events(path: Path, plan: PlanFile) -> tuple[RunLog, ...]:
@@ -108,23 +138,27 @@ def _event(content: str, names: _Names) -> tuple[int, Event]:
         line = _LINE.validate_json(content)
     except ValidationError as error:
         raise _fault(error, content) from None
-    if line.auv >= names.fleet_size:
-        raise InputError(
-            f"the plan has {names.fleet_size} AUVs, counted from 0; use the plan that was sailed",
-            field="auv",
-            value=line.auv,
-        )
+    names.require_auv("auv", line.auv)
+    frame = None if line.message is None else _frame(line.message, names)
     if line.node is None:
         if line.kind in _AT_NODES:
             raise InputError("is missing; add the node concerned", field="node")
-        return line.run, Event(line.t, line.auv, line.kind)
+        return line.run, Event(line.t, line.auv, line.kind, frame=frame)
     if line.node not in names.vertices:
         raise InputError(
             "is no node of the plan's instance; use the plan that was sailed",
             field="node",
             value=line.node,
         )
-    return line.run, Event(line.t, line.auv, line.kind, names.vertices[line.node])
+    return line.run, Event(line.t, line.auv, line.kind, names.vertices[line.node], frame)
+
+
+def _frame(message: _Message, names: _Names) -> Frame:
+    """The message without those who heard it: events of their own tell that."""
+    names.require_auv("message.sender", message.sender)
+    if message.receiver is not None:
+        names.require_auv("message.receiver", message.receiver)
+    return Frame(message.number, message.sender, message.receiver, message.kind, message.bits)
 
 
 def _fault(error: ValidationError, content: str) -> InputError:

@@ -30,6 +30,7 @@ SCRIPTS = (
     "history.js",
     "chart.js",
     "map.js",
+    "links.js",
     "tables.js",
     "strip.js",
     "bars.js",

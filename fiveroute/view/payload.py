@@ -18,6 +18,7 @@ from fiveroute.instance import Circle, Instance
 from fiveroute.result import optimality_gap
 from fiveroute.view.chart import Chart
 from fiveroute.view.event_log import RunLog
+from fiveroute.view.exchanges import Exchange, exchanges
 from fiveroute.view.scene import Scene
 from fiveroute.view.timed_legs import Leg, Shapes, sailed_legs
 
@@ -141,7 +142,10 @@ def _leg(auv: int, leg: Leg, shapes: Shapes) -> list[float]:
 
 
 def _run(run: RunLog, scene: Scene) -> dict[str, Any]:
-    legs = sailed_legs(scene.instance, len(scene.routes.routes), run.events)
+    fleet_size = len(scene.routes.routes)
+    legs = sailed_legs(scene.instance, fleet_size, run.events)
+    talk = exchanges(run.events, fleet_size)
+    places = {number: place for place, number in enumerate(talk)}
     return {
         "run": run.run,
         "legs": _legs(legs, scene.shapes),
@@ -149,6 +153,24 @@ def _run(run: RunLog, scene: Scene) -> dict[str, Any]:
         "auv": [event.auv for event in run.events],
         "kind": [event.kind for event in run.events],
         "node": [event.node or 0 for event in run.events],
+        "message": [
+            -1 if event.frame is None else places.get(event.frame.number, -1)
+            for event in run.events
+        ],
+        "messages": [_exchange(exchange) for exchange in talk.values()],
+    }
+
+
+def _exchange(exchange: Exchange) -> dict[str, Any]:
+    frame = exchange.frame
+    return {
+        "says": frame.says,
+        "sender": frame.sender,
+        "receiver": frame.receiver,
+        "bits": frame.bits,
+        "sent": exchange.sent,
+        "heard": [[auv, *_rounded([t])] for auv, t in exchange.heard.items()],
+        "lost": list(exchange.lost),
     }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -77,8 +78,6 @@ def test_an_expired_clock_leaves_whole_chunks() -> None:
 
 
 def test_events_are_told_line_by_line() -> None:
-    import json
-
     result = sail_campaign(campaign(2, log=True))
     events = [json.loads(line) for line in event_lines(mission(), result).splitlines()]
     assert {event["run"] for event in events} == {0, 1}
@@ -87,6 +86,20 @@ def test_events_are_told_line_by_line() -> None:
     assert {event["node"] for event in events if event["kind"] == "collect"} <= {
         node.id for node in mission().nodes
     }
+
+
+def test_messages_are_told_with_those_who_heard_them() -> None:
+    result = sail_campaign(campaign(2, log=True, loss=0.5))
+    events = [json.loads(line) for line in event_lines(mission(), result).splitlines()]
+    sent = [event for event in events if event["kind"] == "send"]
+    assert len(sent) == result.messages[0]
+    assert sum(len(event["message"]["heard"]) for event in sent) == result.messages[1]
+    report = next(event for event in sent if event["message"]["heard"])
+    (heard,) = report["message"].pop("heard")
+    assert report["message"]["kind"] == "report"
+    assert report["message"]["sender"] == report["auv"]
+    assert report["message"]["receiver"] is None
+    assert report | {"t": heard["t"], "auv": heard["auv"], "kind": "receive"} in events
 
 
 @pytest.mark.parametrize("suffix", ["csv", "parquet"])

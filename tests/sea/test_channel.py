@@ -8,6 +8,7 @@ import pytest
 
 from fiveroute.errors import InputError
 from fiveroute.sea.channel import PRESETS, SOUND_SPEED, Bursts, Channel, Radio
+from fiveroute.sea.events import Frame, arrivals_of
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.messages import Accept, Bid, Call, Message, Report, Wish
 from fiveroute.sea.theatre import Theatre
@@ -62,6 +63,23 @@ def test_everybody_hears_what_is_for_everybody_but_the_sender(theatre: Theatre) 
     voyage.sail(Stay(theatre.problem.destination))
     assert sorted(auv for _, auv, _ in ears.heard) == [0, 2]
     assert (radio.sent, radio.delivered) == (1, 2)
+
+
+def test_the_log_pairs_who_speaks_with_who_hears(theatre: Theatre) -> None:
+    ears = Ears()
+    voyage, radio = fleet(theatre, Channel(loss=0.4), ears)
+    radio.send(0.0, Wish(1, None, frozenset({2})))
+    for number in range(20):
+        radio.send(0.0, Accept(0, 2, number, 5))
+    voyage.sail(Stay(theatre.problem.destination))
+    sent = [event.frame for event in voyage.log if event.kind == "send"]
+    assert sent[0] == Frame(0, 0, 2, "accept", 68)
+    assert sent[1] == Frame(1, 1, None, "wish", 36 + theatre.problem.n)
+    assert [frame.number for frame in sent if frame] == list(range(21))
+    arrivals = arrivals_of(voyage.log)
+    heard = [(t, auv) for told in arrivals.values() for auv, t in told.items()]
+    assert sorted(heard) == [(t, auv) for t, auv, _ in ears.heard]
+    assert 0 < len(heard) < 21
 
 
 def test_an_auv_sends_in_its_turns_only(theatre: Theatre) -> None:

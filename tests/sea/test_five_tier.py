@@ -12,7 +12,7 @@ from fiveroute.routes import Plan
 from fiveroute.sea.agent import BEAT
 from fiveroute.sea.channel import Bursts, Channel
 from fiveroute.sea.course import in_hand, outlook
-from fiveroute.sea.events import Kind
+from fiveroute.sea.events import Frame, Kind
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.five_tier import FiveTier, first_keepers
 from fiveroute.sea.simulation import failure_times, simulate_fleet
@@ -28,9 +28,16 @@ class WatchedVoyage(Voyage):
     crew: FiveTier | None = None
     may_fail: bool = False
 
-    def note(self, t: float, auv: int, kind: Kind, node: int | None = None) -> None:
+    def note(
+        self,
+        t: float,
+        auv: int,
+        kind: Kind,
+        node: int | None = None,
+        frame: Frame | None = None,
+    ) -> None:
         """Write an event into the log, and look at everybody's book."""
-        super(WatchedVoyage, self).note(t, auv, kind, node)
+        super(WatchedVoyage, self).note(t, auv, kind, node, frame)
         if self.crew is None:
             return
         if not self.may_fail:

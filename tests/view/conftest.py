@@ -41,13 +41,18 @@ SEA = Instance(
     ),
 )
 
+AWARD = {"number": 0, "kind": "award", "sender": 0, "receiver": 1, "bits": 68}
+HEARD = [{"auv": 1, "t": 1201.0}]
+REPORT = {"number": 1, "kind": "report", "sender": 1, "receiver": None, "bits": 50}
+
 EVENTS = [
     {"run": 1, "t": 0.0, "auv": 0, "kind": "depart"},
     {"run": 1, "t": 0.0, "auv": 1, "kind": "depart"},
     {"run": 1, "t": 1100.0, "auv": 0, "kind": "collect", "node": "a"},
     {"run": 1, "t": 1150.0, "auv": 0, "kind": "discard", "node": HOSTILE},
-    {"run": 1, "t": 1200.0, "auv": 0, "kind": "send"},
-    {"run": 1, "t": 1201.0, "auv": 1, "kind": "receive"},
+    {"run": 1, "t": 1200.0, "auv": 0, "kind": "send", "message": AWARD | {"heard": HEARD}},
+    {"run": 1, "t": 1201.0, "auv": 1, "kind": "receive", "message": AWARD},
+    {"run": 1, "t": 1250.0, "auv": 1, "kind": "send", "message": REPORT | {"heard": []}},
     {"run": 1, "t": 1300.0, "auv": 1, "kind": "manoeuvre"},
     {"run": 1, "t": 1400.0, "auv": 1, "kind": "pick_up", "node": HOSTILE},
     {"run": 1, "t": 2700.0, "auv": 1, "kind": "collect", "node": HOSTILE},

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from fiveroute.errors import InputError
 from fiveroute.formats.plan_file import PlanFile
-from fiveroute.sea.events import Event
+from fiveroute.sea.events import Event, Frame
 from fiveroute.view.event_log import read_events, run_logs
 
 
@@ -20,6 +20,8 @@ def test_runs_come_in_their_order_with_vertices(plan: PlanFile, log_path: Path) 
     assert [event.t for event in second.events] == sorted(event.t for event in second.events)
 
 
+MESSAGE = {"number": 4, "kind": "bid", "sender": 0, "receiver": 1, "bits": 52}
+SENT = {"run": 0, "t": 1.0, "auv": 0, "kind": "send"}
 GOOD = {"run": 0, "t": 1.0, "auv": 0, "kind": "collect", "node": "a"}
 
 
@@ -35,6 +37,11 @@ GOOD = {"run": 0, "t": 1.0, "auv": 0, "kind": "collect", "node": "a"}
         (json.dumps(GOOD).replace("1.0", "NaN"), "line 2"),
         (json.dumps(GOOD | {"speed": 1.0}), "speed: 1.0: is no key of this format"),
         (json.dumps({"run": 0}), "is missing"),
+        (json.dumps(SENT | {"message": MESSAGE | {"receiver": 2}}), "message.receiver: 2: the"),
+        (json.dumps(SENT | {"message": MESSAGE | {"sender": 9}}), "message.sender: 9: the plan"),
+        (json.dumps(SENT | {"message": MESSAGE | {"bits": -1}}), "message.bits: -1"),
+        (json.dumps(SENT | {"message": MESSAGE | {"kind": "x" * 41}}), "message.kind"),
+        (json.dumps(SENT | {"message": {"number": 1}}), "is missing"),
         (json.dumps({"run": 0, "t": 1.0, "auv": 0, "kind": "discard"}), "node: is missing"),
     ],
 )
@@ -45,6 +52,15 @@ def test_wrong_line_is_named(plan: PlanFile, tmp_path: Path, line: str, said: st
         read_events(path, plan)
     assert str(error.value).startswith(f"{path}, line 2")
     assert said in str(error.value)
+
+
+def test_messages_are_told_or_not(plan: PlanFile) -> None:
+    """Logs of before messages were told are still read."""
+    ((_, events),) = ((log.run, log.events) for log in run_logs(json.dumps(SENT), plan))
+    assert events == (Event(1.0, 0, "send"),)
+    heard = SENT | {"message": MESSAGE | {"heard": [{"auv": 1, "t": 1.5}]}}
+    (log,) = run_logs(json.dumps(heard), plan)
+    assert log.events == (Event(1.0, 0, "send", None, Frame(4, 0, 1, "bid", 52)),)
 
 
 def test_blank_lines_do_not_count(plan: PlanFile) -> None:

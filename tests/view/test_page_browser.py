@@ -196,7 +196,12 @@ def test_tables_tell_what_happens(browser: Any, scene: Scene, tmp_path: Path) ->
 
     page.click("#tab-events")
     rows = page.locator("#events .event")
-    assert rows.count() == 11
+    assert rows.count() == 12
+    said = rows.all_inner_texts()
+    assert "AUV 1 sends award to AUV 2 (68 bits)" in said[4]
+    assert "AUV 2 hears award of AUV 1 after 1.0 s" in said[5]
+    assert "AUV 2 sends report to all, lost (50 bits)" in said[6]
+    assert rows.nth(6).evaluate("(row) => row.classList.contains('lost')")
     page.get_by_label("messages").uncheck()
     assert rows.count() == 9
     rows.filter(has_text="drops").click()
@@ -207,6 +212,56 @@ def test_tables_tell_what_happens(browser: Any, scene: Scene, tmp_path: Path) ->
     page.click("#tab-key")
     assert "nobody has picked it up" in visit.text("#panel-key")
     page.get_by_label("arrows of the current").uncheck()
+    visit.close()
+
+
+def test_messages_are_links_while_they_are_fresh(
+    browser: Any, scene: Scene, tmp_path: Path
+) -> None:
+    """A line from sender to receiver at its time; a broken one in the colour of alarm if lost."""
+    visit = Visit(browser, written([scene], tmp_path), color_scheme="light")
+    page = visit.page
+    page.select_option(".pane select", "0 1")
+    page.select_option("#speed", "30")
+    page.click("#tab-key")
+    page.get_by_label("names of nodes").uncheck()
+
+    def reds() -> int:
+        """Pixels in the colour of alarm."""
+        script = """() => {
+          const copy = document.createElement("canvas");
+          const shown = document.querySelector(".pane canvas");
+          [copy.width, copy.height] = [shown.width, shown.height];
+          const context = copy.getContext("2d", { willReadFrequently: true });
+          context.drawImage(shown, 0, 0);
+          const { data } = context.getImageData(0, 0, copy.width, copy.height);
+          let count = 0;
+          for (let k = 0; k < data.length; k += 4) {
+            count += data[k] === 193 && data[k + 1] === 18 && data[k + 2] === 31;
+          }
+          return count;
+        }"""
+        visit.settle()
+        return int(page.evaluate(script))
+
+    def at(seconds: float) -> str:
+        visit.set_time(seconds / 5000.0)
+        return visit.pixels()
+
+    def without_events(seconds: float) -> str:
+        box = page.get_by_label("events", exact=True)
+        box.uncheck()
+        shown = at(seconds)
+        box.check()
+        return shown
+
+    assert at(1210.0) != without_events(1210.0)
+    at(1210.0)
+    assert reds() == 0
+    at(1250.5)
+    assert reds() > 20
+    at(1290.0)
+    assert reds() == 0
     visit.close()
 
 

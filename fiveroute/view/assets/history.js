@@ -77,6 +77,19 @@ const SAID = {
 };
 
 function sentence(scene, event) {
+  if (event.message) return event.kind === "send" ? told(event.message) : heard(event);
   const object = event.node ? ` ${scene.ids[event.node - 1]}` : "";
   return `AUV ${event.auv + 1} ${SAID[event.kind]}${object}`;
+}
+
+/** Who said what to whom, and whom it did not reach. */
+function told({ says, sender, receiver, bits, heard, lost }) {
+  const whom = receiver === null ? "all" : `AUV ${receiver + 1}`;
+  const numbers = lost.map((auv) => auv + 1).join(", ");
+  const fate = !lost.length ? "" : heard.length ? `, lost to ${numbers}` : ", lost";
+  return `AUV ${sender + 1} sends ${says} to ${whom}${fate} (${bits} bits)`;
+}
+
+function heard({ t, auv, message: { says, sender, sent } }) {
+  return `AUV ${auv + 1} hears ${says} of AUV ${sender + 1} after ${(t - sent).toFixed(1)} s`;
 }

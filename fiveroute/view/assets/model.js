@@ -49,6 +49,7 @@ function runTimeline(scene, run) {
     auv: run.auv[k],
     kind: run.kind[k],
     node: run.node[k],
+    message: run.messages[run.message[k]] || null,
   }));
   return finished(scene, `run ${run.run}`, run.legs, events, true);
 }

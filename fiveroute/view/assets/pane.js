@@ -130,7 +130,10 @@ class Pane {
     if (shows.names) drawNames(context, view, this.scene, theme);
     drawEnds(context, view, this.scene, theme);
     if (this.marked.node) this.drawMarkedNode(context, view, theme);
-    if (shows.events) drawEvents(context, view, this.scene, this.timeline, theme, t, look);
+    if (shows.events) {
+      drawLinks(context, view, this.timeline, theme, t, look);
+      drawEvents(context, view, this.scene, this.timeline, theme, t, look);
+    }
     drawAuvs(context, view, this.timeline, theme, t, this.marked.auv);
     this.app.editor?.draw(context, view, this, theme);
     drawFurniture(context, view, this.scene, theme);

@@ -281,11 +281,13 @@ class EventList {
   }
 
   row(event, k) {
+    const isLost = event.kind === "send" && event.message?.lost.length;
     const row = element(
       "button",
       {
         type: "button",
-        class: k === this.now ? "event now" : k < this.now ? "event" : "event later",
+        class: `event${k === this.now ? " now" : k < this.now ? "" : " later"}${isLost ? " lost" : ""}`,
+        title: sentence(this.scene, event),
         onclick: () => this.onPick(event),
       },
       element("time", {}, clock(event.t)),
