@@ -10,6 +10,9 @@ from typing import Any
 import pytest
 
 from fiveroute.formats.plan_file import PlanFile
+from fiveroute.instance import Fleet, Instance, Node, Point, Service
+from fiveroute.result import Result
+from fiveroute.routes import Plan
 from fiveroute.view.event_log import read_events
 from fiveroute.view.page import page_of
 from fiveroute.view.scene import Scene, scene_of
@@ -212,6 +215,114 @@ def test_tables_tell_what_happens(browser: Any, scene: Scene, tmp_path: Path) ->
     page.click("#tab-key")
     assert "nobody has picked it up" in visit.text("#panel-key")
     page.get_by_label("arrows of the current").uncheck()
+    visit.close()
+
+
+@pytest.fixture(scope="module")
+def crowd() -> PlanFile:
+    """A plan of one route among five thousand nodes."""
+    nodes = tuple(Node(f"n{k}", 20.0 * k, 7.0 * (k % 50), 1.0 + k % 3) for k in range(1, 5001))
+    far = Instance("crowd", nodes, Point(0.0, 0.0), Point(1e5, 0.0), Fleet(1, 1.0, 1e6), Service())
+    problem = far.problem()
+    return PlanFile.of(
+        far, problem, Result.judged(problem, Plan.of([[1, 2]]), method="", seconds=0)
+    )
+
+
+def test_a_table_of_thousands_makes_the_rows_in_sight_only(
+    browser: Any, crowd: PlanFile, tmp_path: Path
+) -> None:
+    visit = Visit(browser, written([scene_of(crowd)], tmp_path))
+    page = visit.page
+    page.click("#tab-nodes")
+    rows = page.locator("#panel-nodes tbody tr")
+    panel = page.locator("#panel-nodes")
+
+    def first_in_sight() -> str:
+        """The node under the heads."""
+        script = """(panel) => {
+          const head = panel.querySelector("th").getBoundingClientRect();
+          const cell = document.elementFromPoint(head.left + 9, head.bottom + 9);
+          return cell.closest("tr").cells[0].textContent;
+        }"""
+        visit.settle()
+        return str(panel.evaluate(script))
+
+    assert rows.count() < 60
+    assert page.get_attribute("#panel-nodes table", "aria-rowcount") == "5001"
+    assert first_in_sight() == "n1"
+    height = panel.evaluate("(panel) => panel.scrollHeight")
+    assert height > 5000 * 20
+    for share in (0.25, 0.5, 1.0):
+        panel.evaluate("(panel, share) => { panel.scrollTop = share * panel.scrollHeight; }", share)
+        assert int(first_in_sight()[1:]) == pytest.approx(5000 * share, abs=40)
+        assert rows.count() < 60
+        assert panel.evaluate("(panel) => panel.scrollHeight") == height
+    assert rows.last.inner_text().startswith("n5000")
+    assert rows.last.get_attribute("aria-rowindex") == "5001"
+    visit.close()
+
+
+def test_a_long_table_can_be_walked_by_keys(browser: Any, crowd: PlanFile, tmp_path: Path) -> None:
+    visit = Visit(browser, written([scene_of(crowd)], tmp_path))
+    page = visit.page
+    page.click("#tab-nodes")
+
+    def focused() -> str:
+        visit.settle()
+        script = "() => document.activeElement.closest('tr').cells[0].textContent"
+        return str(page.evaluate(script))
+
+    page.locator("#panel-nodes th button").last.focus()
+    page.keyboard.press("Tab")
+    assert focused() == "n1"
+    for key, node in [
+        ("ArrowDown", "n2"),
+        ("ArrowUp", "n1"),
+        ("ArrowUp", "n1"),
+        ("End", "n5000"),
+        ("ArrowUp", "n4999"),
+        ("Home", "n1"),
+        ("ArrowDown", "n2"),
+    ]:
+        page.keyboard.press(key)
+        assert focused() == node
+    page.keyboard.press("PageDown")
+    assert int(focused()[1:]) > 10
+    clock = visit.text("#clock")
+    page.keyboard.press("Enter")
+    assert page.locator("#panel-nodes tr.marked").count() == 1
+    assert visit.text("#clock") == clock
+
+    # Sorted by data, what is marked stays so; a row that the wheel takes out of sight leaves the
+    # focus to the panel.
+    page.locator("#panel-nodes th button").nth(1).click()
+    assert page.locator("#panel-nodes tbody tr").first.inner_text().startswith("n3\t1")
+    page.locator("#panel-nodes tbody tr").first.focus()
+    page.locator("#panel-nodes").evaluate("(panel) => { panel.scrollTop = 50_000; }")
+    visit.settle()
+    assert page.evaluate("() => document.activeElement.id") == "panel-nodes"
+    visit.close()
+
+
+def test_what_is_marked_on_the_map_comes_into_sight_in_the_table(
+    browser: Any, crowd: PlanFile, tmp_path: Path
+) -> None:
+    visit = Visit(browser, written([scene_of(crowd)], tmp_path))
+    page = visit.page
+    page.click("#tab-nodes")
+    x, y = visit.middle()
+    page.mouse.click(x, y)
+    visit.settle()
+    marked = page.locator("#panel-nodes tr.marked")
+    assert 2000 < int(marked.inner_text().split()[0][1:]) < 3000
+    assert marked.evaluate(
+        """(row) => {
+          const own = row.getBoundingClientRect();
+          const box = row.closest("#panel-nodes").getBoundingClientRect();
+          return own.top > box.top && own.bottom <= box.bottom;
+        }"""
+    )
     visit.close()
 
 
