@@ -22,6 +22,13 @@ __all__ = ["command"]
     "compare two logs of PLAN.",
 )
 @click.option(
+    "--tracks",
+    type=click.Path(path_type=Path),
+    multiple=True,
+    help="Tracks sailed in the runs of --events, as `simulate --tracks` wrote them; once for "
+    "each log.",
+)
+@click.option(
     "--run",
     type=options.Whole(min=0),
     metavar="K",
@@ -38,6 +45,7 @@ def command(
     plan: Path,
     other: Path | None,
     events: tuple[Path, ...],
+    tracks: tuple[Path, ...],
     run: int | None,
     instance: Path | None,
     output: Path,
@@ -49,5 +57,5 @@ def command(
 
     require_output(output, force)
     require_look(output)
-    scenes = load_scenes([plan] if other is None else [plan, other], events, instance)
+    scenes = load_scenes([plan] if other is None else [plan, other], events, instance, tracks)
     write_look(scenes, output, run=run, force=force)

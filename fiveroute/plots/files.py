@@ -75,10 +75,11 @@ def write_film(
     still = {ax: set(ax.get_children()) for ax in axes}
 
     def draw(frame: int) -> list[Artist]:
-        for scene, fleet, ax in zip(scenes, legs, axes, strict=True):
+        for scene, log, fleet, ax in zip(scenes, logs, legs, axes, strict=True):
             for artist in set(ax.get_children()) - still[ax]:
                 artist.remove()
-            draw_fleet(ax, scene, fleet, end * frame / max(frames - 1, 1))
+            sailed = None if log is None else log.tracks
+            draw_fleet(ax, scene, fleet, end * frame / max(frames - 1, 1), sailed)
             ax.set_title(f"{scene.title}: {ax.get_title()}", alpha=1.0, y=1.0)
         return []
 

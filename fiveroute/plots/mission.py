@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ Legs = tuple[tuple[Leg, ...], ...]
 
 _DASHES = ("-", "--", ":", "-.")
 _GREY = "#75828d"
+_NONE = np.zeros((0, 3))
 
 
 def plot_plan(scene: Scene, ax: Axes | None = None, *, currents: bool = True) -> Axes:
@@ -69,7 +71,7 @@ def plot_mission(
         Whether to draw the current.
     """
     ax = plot_sea(scene, ax, t=0.0 if math.isinf(t) else t, currents=currents)
-    draw_fleet(ax, scene, run_legs(scene, run), t)
+    draw_fleet(ax, scene, run_legs(scene, run), t, None if run is None else run.tracks)
     name = "plan" if run is None else f"run {run.run}"
     ax.set_title(f"{scene.title}, {name}: {ax.get_title()}")
     return ax
@@ -82,15 +84,27 @@ def run_legs(scene: Scene, run: RunLog | None) -> Legs:
     return sailed_legs(scene.instance, len(scene.routes.routes), run.events)
 
 
-def draw_fleet(ax: Axes, scene: Scene, legs: Legs, t: float = math.inf) -> None:
-    """Draw tracks, nodes and AUVs at a time in seconds; the title tells what is collected."""
+def draw_fleet(
+    ax: Axes,
+    scene: Scene,
+    legs: Legs,
+    t: float = math.inf,
+    tracks: Sequence[Floats] | None = None,
+) -> None:
+    """Draw tracks, nodes and AUVs at a time in seconds; the title tells what is collected.
+
+    Where no tracks are known, or an AUV has none, its legs are followed.
+    """
     unit, size = unit_of(scene), len(scene.instance.nodes)
     owner, collected = np.full(size, -1), np.zeros(size, dtype=np.bool_)
     for auv, route in enumerate(scene.routes.routes):
         owner[[node - 1 for node in route]] = auv
     for auv, own in enumerate(legs):
         colour, dash = COLOURS[auv % len(COLOURS)], _DASHES[auv // len(COLOURS) % len(_DASHES)]
-        x, y = _until(track_of(auv, own, scene.shapes, scene.instance.points), t).T / unit
+        track = _NONE if tracks is None else tracks[auv]
+        if not len(track):
+            track = track_of(auv, own, scene.shapes, scene.instance.points)
+        x, y = _until(track, t).T / unit
         ax.plot(x, y, color="white", linewidth=3.4, zorder=3)
         ax.plot(x, y, dash, color=colour, linewidth=1.8, zorder=4, label=f"AUV {auv + 1}")
         if math.isfinite(t):

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import ConfigDict, Field, NonNegativeFloat, TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass as validated
 from pydantic_core import from_json
@@ -30,10 +32,14 @@ class RunLog:
         Number of the run.
     events
         Its events, in the order of time; nodes are vertices of the plan's instance.
+    tracks
+        Metres and seconds x, y, t of every AUV, each of shape (any, 3); None where they are not
+        known.
     """
 
     run: int
     events: tuple[Event, ...]
+    tracks: tuple[NDArray[np.float64], ...] | None = field(default=None, compare=False)
 
 
 _Whole = Annotated[int, Field(ge=0, lt=2**53)]
@@ -73,13 +79,13 @@ class _Names(NamedTuple):
     vertices: Mapping[str, int]
     fleet_size: int
 
-    def require_auv(self, field: str, auv: int) -> None:
+    def require_auv(self, name: str, auv: int) -> None:
         """Refuse an AUV that the plan does not have."""
         if auv >= self.fleet_size:
             raise InputError(
                 f"the plan has {self.fleet_size} AUVs, counted from 0; use the plan that was "
                 f"sailed",
-                field=field,
+                field=name,
                 value=auv,
             )
 

@@ -16,7 +16,10 @@ _LOOKS = (".gif", ".html", *_PICTURES)
 
 
 def load_scenes(
-    plans: Sequence[Path], logs: Sequence[Path] = (), instance: Path | None = None
+    plans: Sequence[Path],
+    logs: Sequence[Path] = (),
+    instance: Path | None = None,
+    tracks: Sequence[Path] = (),
 ) -> list[Scene]:
     """Read one plan or two and what was logged of them.
 
@@ -28,6 +31,8 @@ def load_scenes(
         Event logs; the k-th belongs to the k-th plan, and two logs of one plan are two scenes.
     instance
         Instance that the plans must be for.
+    tracks
+        Files of the tracks sailed in the runs; the k-th belongs to the k-th log.
 
     Raises
     ------
@@ -37,15 +42,20 @@ def load_scenes(
     from fiveroute.formats import read_instance
     from fiveroute.formats.plan_file import read_plan
     from fiveroute.view.event_log import read_events
+    from fiveroute.view.track_log import with_tracks
 
     if not 1 <= len(plans) <= 2 or len(logs) > 2:
         raise InputError("two plans and two logs can be compared, no more")
+    if len(tracks) > len(logs):
+        raise InputError("tracks are played with the log of their runs; add it", field="events")
     mission = None if instance is None else read_instance(instance)
     files = [*plans, plans[-1]][: max(len(plans), len(logs))]
     scenes = []
     for k, path in enumerate(files):
         plan = read_plan(path, mission)
         runs = read_events(logs[k], plan) if k < len(logs) else ()
+        if k < len(tracks):
+            runs = with_tracks(runs, tracks[k], len(plan.routes))
         folder = path.parent if instance is None else instance.parent
         named = [path.stem, *([logs[k].stem] if len(plans) == 1 and len(logs) == 2 else [])]
         title = ", ".join(named) if len(files) == 2 else plan.instance.name

@@ -149,6 +149,7 @@ def _run(run: RunLog, scene: Scene) -> dict[str, Any]:
     return {
         "run": run.run,
         "legs": _legs(legs, scene.shapes),
+        "tracks": None if run.tracks is None else [_packed(t.astype("<f4")) for t in run.tracks],
         "t": _rounded([event.t for event in run.events]),
         "auv": [event.auv for event in run.events],
         "kind": [event.kind for event in run.events],

@@ -106,13 +106,14 @@ def scene_of(
         raise InputError("is no node of the instance; correct it", field="routes", value=unknown[0])
     current, notes = _current(plan, folder)
     shapes = shapes_of(plan, routes, current)
-    region = region_of(plan.instance, [shape.points for shape in shapes.paths])
+    sailed = [track[:, :2] for run in runs for track in run.tracks or ()]
+    region = region_of(plan.instance, [*(shape.points for shape in shapes.paths), *sailed])
     chart = None
     if current is not None:
         chart = chart_of(current, region, max(plan.durations, default=0.0))
         if len(chart.times) > 1:
             notes.append(_HELD)
-    if runs and shapes.paths:
+    if shapes.paths and any(run.tracks is None for run in runs):
         notes.append(_STRAIGHT)
     return Scene(
         plan,

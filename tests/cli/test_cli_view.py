@@ -28,15 +28,24 @@ def test_wrong_calls_are_told(call: Call, tiny: Path, tmp_path: Path) -> None:
     assert "is not the format of this file" in instance.err
 
 
+def scenes_of(page: Path) -> Any:
+    _, _, data = page.read_text(encoding="utf-8").partition('id="data">')
+    return json.loads(data[: data.index("</script>")])["scenes"]
+
+
 def test_simulated_runs_can_be_played(call: Call, tiny: Path, tmp_path: Path) -> None:
     plan, log, page = (tmp_path / name for name in ("plan.json", "log.jsonl", "page.html"))
+    tracks = tmp_path / "tracks.nc"
     call("plan", tiny, "--output", plan)
-    assert call("simulate", tiny, plan, "--runs", 2, "--events", log, "--json").code == 0
-    answer = call("view", plan, "--events", log, "--events", log, "--output", page)
+    files = ("--events", log, "--tracks", tracks)
+    assert call("simulate", tiny, plan, "--runs", 2, *files, "--json").code == 0
+    answer = call("view", plan, *files, "--events", log, "--output", page)
     assert answer.code == 0
-    _, _, data = page.read_text(encoding="utf-8").partition('id="data">')
-    scenes = json.loads(data[: data.index("</script>")])["scenes"]
-    assert [[run["run"] for run in scene["runs"]] for scene in scenes] == [[0, 1], [0, 1]]
+    sailed, straight = scenes_of(page)
+    assert [run["run"] for run in sailed["runs"]] == [0, 1]
+    assert [run["run"] for run in straight["runs"]] == [0, 1]
+    assert all(run["tracks"] for run in sailed["runs"])
+    assert not any(run["tracks"] for run in straight["runs"])
     assert (
         call("view", plan, "--events", log, "--run", 9, "--output", tmp_path / "run.png").code == 2
     )

@@ -3,9 +3,11 @@
 import json
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from fiveroute.formats.plan_file import PlanFile
@@ -175,6 +177,23 @@ def test_data_and_doings_follow_the_clock(plan: PlanFile, log_path: Path) -> Non
         ["failed", 0],
     ]
     assert planned == 9
+
+
+def test_runs_go_where_they_were_sailed(plan: PlanFile, log_path: Path) -> None:
+    """An AUV that failed lies where it failed; one without a track follows its legs."""
+    track = np.array([[0.0, 0.0, 0.0], [300.0, 400.0, 1000.0], [300.0, 900.0, 3500.0]])
+    _, run = read_events(log_path, plan)
+    run = replace(run, tracks=(np.zeros((0, 3)), track))
+    data = embedded(document_of([scene_of(plan, runs=(run,))]))
+    body = """
+      const { tracks } = timelineOf(scene, 0);
+      return [[1, 500], [1, 4500], [0, 0], [0, 1040]].map(([auv, t]) => {
+        const { x, y } = positionAt(tracks[auv], t);
+        return [x, y];
+      });
+    """
+    places = evaluate(f"const scene = unpackScene({data}.scenes[0]); {body}")
+    assert places == [[150, 200], [300, 900], [0, 0], [1000, 0]]
 
 
 def test_current_is_interpolated_as_it_was_charted(plan: PlanFile, log_path: Path) -> None:

@@ -51,11 +51,14 @@ function runTimeline(scene, run) {
     node: run.node[k],
     message: run.messages[run.message[k]] || null,
   }));
-  return finished(scene, `run ${run.run}`, run.legs, events, true);
+  return finished(scene, `run ${run.run}`, run.legs, events, true, run.tracks);
 }
 
-function finished(scene, label, legs, events, isRun) {
-  const tracks = legs.map((own) => trackOf(own, scene.shapes, scene.points));
+function finished(scene, label, legs, events, isRun, sailed) {
+  const tracks = legs.map((own, auv) => {
+    const known = sailed ? new Float32Array(bytesOf(sailed[auv])) : [];
+    return known.length ? sailedTrack(known) : trackOf(own, scene.shapes, scene.points);
+  });
   const { changes, collected } = historyOf(scene, events);
   const times = Float64Array.from(events, (event) => event.t);
   const ends = tracks.map((track) => track.t[track.t.length - 1]);

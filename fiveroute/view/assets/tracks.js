@@ -33,6 +33,13 @@ function trackOf(legs, shapes, points) {
   return { ...track, weight: weights(track.x, track.y), levels: new Map() };
 }
 
+/** A track as it was sailed: x, y and t, one position after the other. */
+function sailedTrack(table) {
+  const part = (k) => Float64Array.from({ length: table.length / 3 }, (_, at) => table[3 * at + k]);
+  const [x, y, t] = [part(0), part(1), part(2)];
+  return { x, y, t, weight: weights(x, y), levels: new Map() };
+}
+
 /**
  * How far the track would be off if it were drawn without each point, in metres: the distance at
  * which Douglas and Peucker's (1973) method drops it, made to fall along each branch, so that
