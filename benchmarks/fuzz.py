@@ -4,9 +4,10 @@
 
 A file that is well-formed is damaged with its structure in mind: bits, pieces and lines are cut
 out, doubled, moved and written over, numbers and words become absurd ones, keys and values of JSON
-are lost, doubled and exchanged, encodings and ends of lines are others, and the end is cut off. A
-reader may answer, or refuse with one printable line (`InputError`); anything else is a finding:
-another exception, a warning, more than `SECONDS` of processor time, more than `MEMORY`, the end of
+are lost, doubled and exchanged, encodings and ends of lines are others, and the end is cut off.
+Files of currents are also written whole with contents that make no sense (`sea`). A reader may
+answer, or refuse with one printable line (`InputError`); anything else is a finding: another
+exception, a warning, more than `SECONDS` of processor time, more than `MEMORY`, the end of
 the process. Input K of a reader and a seed is the same in every run; ``--only K`` reads it alone.
 """
 
@@ -33,6 +34,7 @@ from types import FrameType
 from typing import Any
 
 import numpy as np
+import spoilt_seas
 
 from fiveroute.errors import InputError
 from fiveroute.formats import (
@@ -225,6 +227,13 @@ class Reader:
     suffix: str
     files: tuple[bytes, ...]
     read: Callable[[Path], object]
+    spoil: Callable[[random.Random], bytes] | None = None
+
+    def spoilt(self, rng: random.Random) -> bytes:
+        """One of the files damaged, or a file that was spoilt as it was written."""
+        if self.spoil is not None:
+            return self.spoil(rng)
+        return damaged(rng.choice(self.files), rng)
 
 
 SEA = Instance(
@@ -318,6 +327,8 @@ GPX = (
     )
     + "</gpx>\n"
 ).encode()
+SAID = {"number": 0, "kind": "award", "sender": 1, "receiver": None, "bits": 68}
+HEARD = [{"auv": 0, "t": 9.9}]
 EVENTS = "".join(
     json.dumps(event) + "\n"
     for event in (
@@ -325,6 +336,8 @@ EVENTS = "".join(
         {"run": 1, "t": 11.5, "auv": 0, "kind": "collect", "node": "a"},
         {"run": 0, "t": 12, "auv": 1, "kind": "discard", "node": "c"},
         {"run": 0, "t": 9.0, "auv": 1, "kind": "send"},
+        {"run": 0, "t": 9.5, "auv": 1, "kind": "send", "message": SAID | {"heard": HEARD}},
+        {"run": 0, "t": 9.9, "auv": 0, "kind": "receive", "message": SAID},
     )
 ).encode()
 REFERENCE = b'instance,best_known,source\nbay,3.5,here\n"p1, a",12,there\nc,1e3,\n'
@@ -388,6 +401,26 @@ def _read_events(path: Path) -> None:
     from fiveroute.view.event_log import read_events
 
     read_events(path, _plan())
+
+
+def _tracks() -> tuple[bytes, ...]:
+    """Tracks of the runs of `EVENTS`, as netCDF-4 and as netCDF-3."""
+    from fiveroute.experiments.track_file import trajectories
+
+    way = np.array([[0.0, 0.0, 0.0], [10.0, 8.0, 6.0]])
+    data = trajectories(STILL, [(0, (way, way)), (1, (way, way[:0]))])
+    named = data.assign(trajectory=("trajectory", [0, 1, 2]))
+    return (
+        _written(partial(data.to_netcdf, engine="h5netcdf"), ".nc"),
+        _written(partial(named.to_netcdf, engine="scipy"), ".nc"),
+    )
+
+
+def _read_tracks(path: Path) -> None:
+    from fiveroute.view.event_log import run_logs
+    from fiveroute.view.track_log import with_tracks
+
+    with_tracks(run_logs(EVENTS.decode(), _plan()), path, 2)
 
 
 def _read_certificate(path: Path) -> None:
@@ -483,6 +516,13 @@ _READERS: dict[str, Callable[[], Reader]] = {
     "gpx": lambda: Reader(".gpx", (GPX,), partial(_read_chart, "gpx")),
     "zones": lambda: Reader(".geojson", (ZONES,), lambda path: geojson_zones.read(read_text(path))),
     "netcdf": lambda: Reader(".nc", _netcdf(), _read_netcdf),
+    "sea": lambda: Reader(
+        ".nc",
+        tuple(spoilt_seas.file_of(layout()) for layout in spoilt_seas.LAYOUTS),
+        _read_netcdf,
+        spoilt_seas.spoilt_sea,
+    ),
+    "tracks": lambda: Reader(".nc", _tracks(), _read_tracks),
     "events": lambda: Reader(".jsonl", (EVENTS,), _read_events),
     "certificate": lambda: Reader(".json", (_certificate(),), _read_certificate),
     "reference": lambda: Reader(".csv", (REFERENCE,), _read_reference),
@@ -511,8 +551,7 @@ def fault_of(kind: Reader, path: Path) -> str | None:
 
 def content_of(name: str, seed: int, number: int) -> bytes:
     """Input of a number."""
-    rng = random.Random(f"{name} {seed} {number}")
-    return damaged(rng.choice(reader(name).files), rng)
+    return reader(name).spoilt(random.Random(f"{name} {seed} {number}"))
 
 
 def _too_slow(_signal: int, _frame: FrameType | None) -> None:
@@ -550,7 +589,11 @@ def run(name: str, count: int, seed: int, first: int = 0) -> int:
             at[:16] = bytes(16)
             child = os.fork()
             if child == 0:
-                _read_batch(name, seed, numbers, path, at)
+                try:
+                    _read_batch(name, seed, numbers, path, at)
+                except BaseException:  # a fault of ours; the folder is the parent's to clear away
+                    traceback.print_exc()
+                    os._exit(1)
                 os._exit(0)
             _, status = os.waitpid(child, 0)
             number = numbers.stop

@@ -313,6 +313,8 @@ def _current(
 def _reach_of(covered: Booleans, first: float, step: float) -> Range:
     """Range of the coordinates whose nearest column of the grid has data."""
     places = np.flatnonzero(covered.any(axis=0))
+    if len(places) == 0:
+        raise InputError("has no cells that lie beside each other; copy the file again")
     return first + step * (float(places[0]) - 0.5), first + step * (float(places[-1]) + 0.5)
 
 

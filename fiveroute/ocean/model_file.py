@@ -9,6 +9,7 @@ A packed number n stands for scale_factor n + add_offset; the fill value is comp
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -107,11 +108,16 @@ def decoded(variable: xr.DataArray) -> Floats:
     for attribute in ("_FillValue", "missing_value"):
         for fill in _numbers(variable.attrs.get(attribute)):
             missing |= np.abs(values - fill) <= _ROUNDING * abs(fill)
-    for scale in _numbers(variable.attrs.get("scale_factor")):
-        values *= scale
-    for offset in _numbers(variable.attrs.get("add_offset")):
-        values += offset
     values[missing] = np.nan
+    with np.errstate(over="ignore", invalid="ignore"):
+        for scale in _numbers(variable.attrs.get("scale_factor")):
+            values *= scale
+        for offset in _numbers(variable.attrs.get("add_offset")):
+            values += offset
+    if not (np.isfinite(values) | missing).all():
+        raise InputError(
+            "is no number with its scale_factor and add_offset", field=str(variable.name)
+        )
     return values
 
 
@@ -122,8 +128,15 @@ def _numbers(attribute: Any) -> list[float]:
 
 
 def decoded_times(variable: xr.DataArray) -> Times:
-    """Times of a CF time coordinate, in UTC."""
+    """Times of a CF time coordinate, in UTC, one at least."""
     import xarray as xr
+
+    if variable.ndim != 1 or variable.size == 0:
+        raise InputError(
+            "must hold a time for each field, along one dimension",
+            field=str(variable.name),
+            value=variable.shape,
+        )
 
     calendar = str(variable.attrs.get("calendar", "standard")).lower()
     if calendar not in _CALENDARS:
@@ -133,14 +146,16 @@ def decoded_times(variable: xr.DataArray) -> Times:
             value=calendar,
         )
     try:
-        times = xr.decode_cf(xr.Dataset({"time": (variable.dims, variable.values, variable.attrs)}))
-    except (ValueError, OverflowError) as error:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of fill values, with which what they hit is no time
+            held = xr.Dataset({"time": (variable.dims, variable.values, variable.attrs)})
+            read = xr.decode_cf(held)["time"].values
+    except (ValueError, OverflowError, TypeError) as error:
         raise InputError(
             "cannot be read as times; CF writes 'seconds since 1970-01-01 00:00:00'",
             field=f"{variable.name}.units",
             value=variable.attrs.get("units"),
         ) from error
-    read = times["time"].values
     if read.dtype.kind != "M" or np.isnat(read).any():
         raise InputError("holds what is not a time", field=str(variable.name))
     return np.asarray(read.astype("datetime64[ns]"))

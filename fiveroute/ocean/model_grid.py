@@ -271,13 +271,13 @@ def _newton_step(
     j = np.clip(np.nan_to_num(np.floor(row)), 0, rows - 2).astype(np.int64)
     i = np.clip(np.nan_to_num(np.floor(column)), 0, columns - 2).astype(np.int64)
     r, s = row - j, column - i
-    z = cells.x + 1j * cells.y
-    z00, z01, z10, z11 = z[j, i], z[j, i + 1], z[j + 1, i], z[j + 1, i + 1]
-    along_row = z01 - z00 + r * (z11 - z10 - z01 + z00)
-    along_column = z10 - z00 + s * (z11 - z10 - z01 + z00)
-    rest = x + 1j * y - (z00 + s * (z01 - z00) + r * along_column)
-    area = (along_row.conj() * along_column).imag
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        z = cells.x + 1j * cells.y
+        z00, z01, z10, z11 = z[j, i], z[j, i + 1], z[j + 1, i], z[j + 1, i + 1]
+        along_row = z01 - z00 + r * (z11 - z10 - z01 + z00)
+        along_column = z10 - z00 + s * (z11 - z10 - z01 + z00)
+        rest = x + 1j * y - (z00 + s * (z01 - z00) + r * along_column)
+        area = (along_row.conj() * along_column).imag
         right = (rest.conj() * along_column).imag / area
         down = (along_row.conj() * rest).imag / area
     return down, right

@@ -111,6 +111,12 @@ def _depths(values: xr.DataArray) -> Floats:
         raise InputError(
             "is no unit of depth that can be read; give metres", field=str(values.name), value=units
         )
+    if values.ndim != 1 or values.size == 0:
+        raise InputError(
+            "must hold a depth for each level, along one dimension",
+            field=str(values.name),
+            value=values.shape,
+        )
     depths = decoded(values)
     up = str(values.attrs.get("positive", "")).lower() == "up"
     if up or (depths <= 0.0).all():

@@ -156,7 +156,19 @@ def _found(
         )
     if data[lon].ndim != 1 or data[lat].ndim != 1:
         raise InputError(f"has {lon} and {lat} in different dimensions", field=name)
+    _require_axes(data, name, lon, lat, dims)
     return _in_one_dimension(data, lon, lat, origin)
+
+
+def _require_axes(data: xr.Dataset, name: str, x: str, y: str, dims: tuple[str, str]) -> None:
+    """Refuse coordinates along the other's axis, as attributes that contradict their names say."""
+    rows, columns = dims
+    if (data[x].dims, data[y].dims) != ((columns,), (rows,)):
+        raise InputError(
+            f"has {x} along its rows or {y} along its columns; do their axis, units and standard "
+            "names contradict each other?",
+            field=name,
+        )
 
 
 def _in_one_dimension(
@@ -195,6 +207,7 @@ def _projected(data: xr.Dataset, name: str, dims: tuple[str, str]) -> Positions:
             f"the file holds {', '.join(str(held) for held in data.variables)}",
             field=name,
         )
+    _require_axes(data, name, x, y, dims)
     import pyproj
 
     across, columns = np.unique(_scaled(data[x]), return_index=True)

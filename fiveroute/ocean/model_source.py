@@ -257,6 +257,8 @@ def _given_angle(
         return None, ""
     variable = data["angle"]
     angle = read_window(variable, dims, window)
+    if not np.isfinite(angle).any():
+        raise InputError("has no values", field="angle")
     is_degrees = str(variable.attrs.get("units", "")).lower().startswith("degree")
     return (np.radians(angle) if is_degrees else angle), "angle"
 
@@ -275,6 +277,6 @@ def _times(data: xr.Dataset, name: str, axes: Axes) -> Times | None:
             return None
         raise InputError("has several times, but the file does not tell which", field=name)
     times = decoded_times(data[axes.time_variable])
-    if not (np.diff(times) > np.timedelta64(0)).all():
+    if not (np.diff(times) > np.timedelta64(0, "ns")).all():
         raise InputError("must grow from one to the next", field=axes.time_variable)
     return times
