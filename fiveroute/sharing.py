@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 
 from fiveroute.errors import InputError
 
-__all__ = ["share_out"]
+__all__ = ["require_scheduler", "share_out"]
 
 T = TypeVar("T")
 
@@ -50,6 +50,40 @@ def share_out(
     return _on_machine(work, tasks, workers)
 
 
+def require_scheduler(address: str | None) -> None:
+    """Refuse an address where no Dask scheduler answers, before any time is spent.
+
+    A line is opened without a client, since one that finds nobody complains when it goes, and
+    waits for ever for somebody else who says nothing.
+    """
+    if address is None:
+        return
+    import asyncio
+    from concurrent.futures import ThreadPoolExecutor
+
+    try:
+        from distributed.comm.core import connect
+    except ImportError:
+        raise InputError(
+            "needs Dask; install fiveroute[cluster]", field="scheduler", value=address
+        ) from None
+
+    async def call() -> None:
+        line = await asyncio.wait_for(connect(address, timeout=_PATIENCE), _PATIENCE)
+        line.abort()
+
+    try:
+        with ThreadPoolExecutor(1) as thread:  # this one may have a loop that runs, as in notebooks
+            thread.submit(asyncio.run, call()).result()
+    except (OSError, TypeError, ValueError) as error:  # as its transports come upon them
+        why = str(error) or f"not in {_PATIENCE:g} s"
+        raise InputError(
+            f"no Dask scheduler answers there ({why}); start one, or correct the address",
+            field="scheduler",
+            value=address,
+        ) from None
+
+
 def _on_machine(
     work: Callable[..., T], tasks: Sequence[tuple[Any, ...]], workers: int
 ) -> Generator[T]:
@@ -72,19 +106,10 @@ def _on_machine(
 def _on_cluster(
     work: Callable[..., T], tasks: Sequence[tuple[Any, ...]], address: str
 ) -> Generator[T]:
-    try:
-        from distributed import Client, as_completed
-    except ImportError:
-        raise InputError(
-            "needs Dask; install fiveroute[cluster]", field="scheduler", value=address
-        ) from None
-    try:
-        client = Client(address, timeout=_PATIENCE, set_as_default=False)
-    except (OSError, ValueError) as error:
-        raise InputError(
-            f"no Dask scheduler answers there ({error})", field="scheduler", value=address
-        ) from None
-    with client:
+    require_scheduler(address)
+    from distributed import Client, as_completed
+
+    with Client(address, timeout=_PATIENCE, set_as_default=False) as client:
         futures = [client.submit(work, *task, pure=False) for task in tasks]
         for future in as_completed(futures, loop=client.loop):
             yield future.result()

@@ -108,8 +108,10 @@ def command(
     from fiveroute.experiments.kept_rows import KeptRows
     from fiveroute.limits import Limits, ProgressCallback
     from fiveroute.peers import require_peers
+    from fiveroute.sharing import require_scheduler
 
     _require(output, picture, keep, force)
+    require_scheduler(scheduler)
     asked = tuple(dict.fromkeys(peers))
     require_peers(asked, how["time_limit"])
     known = read_reference(reference) if reference else {}

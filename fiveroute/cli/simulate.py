@@ -112,7 +112,9 @@ def command(
     from fiveroute.heuristics.shortest_routes import is_proved_infeasible
     from fiveroute.limits import Limits
     from fiveroute.sea.campaign import Campaign, sail_campaign
+    from fiveroute.sharing import require_scheduler
 
+    require_scheduler(scheduler)
     files = _Files(events, tracks, output, force)
     files.check()
     mission = read_instance(instance)
