@@ -47,6 +47,8 @@ COMMANDS = {
     "--output new.csv",
     "decide": "decide fleet-size bay.json --sizes 1,2 --time-limit 1 --output new.csv",
     "experiment": "experiment preplanning --scenarios 1 --output new",
+    "stochastic": "experiment stochastic --scenarios 1 --runs 2 --workers 1 --output new",
+    "coordination": "experiment coordination --scenarios 0 --runs 2 --output new",
 }
 
 
@@ -94,10 +96,10 @@ def started(arguments: list[str], folder: Path) -> int:
 
 
 def seen(folder: Path, inputs: frozenset[str]) -> frozenset[str]:
-    """Files of a command, without its inputs, its drafts and the journal of its runs."""
-    names = (path.relative_to(folder) for path in folder.rglob("*") if path.is_file())
-    shown = (name for name in names if not re.search(r"(^|/)\.|\.run\.jsonl$", str(name)))
-    return frozenset(map(str, shown)) - inputs
+    """Files of a command, without its inputs, its drafts and the journals of its runs."""
+    names = (str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
+    hidden = re.compile(r"(^|/)\.|\.run\.jsonl$|/cells/.*\.jsonl$")
+    return frozenset(name for name in names if not hidden.search(name)) - inputs
 
 
 def reset(folder: Path, model: Path) -> int:

@@ -118,25 +118,27 @@ def stochastic(
     from fiveroute.cli import answers
     from fiveroute.cli.files import require_folder
     from fiveroute.cli.running import run
-    from fiveroute.experiments.stochastic import Outcome, cells_of, registered, sail_cells
+    from fiveroute.experiments.stochastic import cells_of, registered, sail_cells
+    from fiveroute.experiments.stochastic_cell import Outcome
     from fiveroute.experiments.stochastic_report import FILES, report, summary, write_report
-    from fiveroute.limits import Limits, Progress, ProgressCallback
+    from fiveroute.limits import Limits, ProgressCallback
+    from fiveroute.sharing import require_scheduler
 
     require_folder(output, FILES, force)
+    require_scheduler(scheduler)
     cells = cells_of(**choices)
     registry = None if output is None else registered(output, choices, force=force)
 
     def work(limits: Limits, progress: ProgressCallback | None) -> list[Outcome]:
-        clock, done = limits.start(), []
         folder = None if output is None else output / "cells"
-        for outcome in sail_cells(cells, folder, workers=workers, scheduler=scheduler):
-            done.append(outcome)
-            if progress is not None:
-                message = f"{len(done)} of {len(cells)} planners and scenarios"
-                progress(Progress(clock.seconds, message=message))
-            if clock.interrupted:
-                break
-        return sorted(done, key=lambda outcome: cells.index(outcome.cell))
+        return sail_cells(
+            cells,
+            folder,
+            workers=workers,
+            scheduler=scheduler,
+            limits=limits,
+            progress=progress,
+        )
 
     outcome = run(work, Limits())
     if outcome.interrupted:

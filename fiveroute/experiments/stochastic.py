@@ -6,48 +6,31 @@ meets the same luck: the real leg times depend on scenario, run and leg alone, a
 from a vehicle that sails every leg. Legs are planned as straight lines in still water, because
 (12) already stands for the current, and so does the vehicle's true ocean.
 
-A cell is one planner with one fleet on one scenario. Cells are kept as files as soon as they are
-done, each under a key of all that it depends on: a campaign that is killed at any moment goes on
-where it was.
+A cell is one planner with one fleet on one scenario (`fiveroute.experiments.stochastic_cell`). All
+cells are planned first, then all runs of all cells shared out, one by one. Plans are kept as
+rows, runs in a journal a cell, as soon as they are done and under a key of all that they depend
+on: a campaign that is killed at any moment goes on where it was.
 """
 
 from __future__ import annotations
 
-import hashlib
-import json
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
-from dataclasses import asdict, dataclass, replace
-from functools import cache
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-import fiveroute
+from fiveroute.experiments.kept_rows import KeptRows
 from fiveroute.experiments.registry import Registry
-from fiveroute.formats.files import write_text_atomically
+from fiveroute.experiments.stochastic_cell import Cell, Departure, Outcome, depart, sail_run
 from fiveroute.formats.native import instance_hash
 from fiveroute.generate import paper_scenario
-from fiveroute.kernels import source_digest
-from fiveroute.paths.voyage import Voyage
-from fiveroute.sea.departure import departure_plan
-from fiveroute.sea.sailed_luck import VehicleModel
-from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.theatre import Theatre
+from fiveroute.limits import Limits, Progress, ProgressCallback
+from fiveroute.sea.journal import Journal
+from fiveroute.sea.simulation import RunResult
 from fiveroute.sharing import share_out
-from fiveroute.tiers.preplanning import fleet_size_of
 
-__all__ = [
-    "COMPETITORS",
-    "FIXED_FLEET",
-    "Cell",
-    "Outcome",
-    "cells_of",
-    "registered",
-    "sail_cell",
-    "sail_cells",
-]
+__all__ = ["COMPETITORS", "FIXED_FLEET", "cells_of", "registered", "sail_cells"]
 
 COMPETITORS = ("ftcmp", "rmmp")
 """The planners that the paper compares with."""
@@ -56,94 +39,6 @@ FIXED_FLEET = 4
 """AUVs that they have in the paper's first comparison, (33)."""
 
 _PLANNERS = ("five-tier", "no-coordination", *COMPETITORS)
-
-
-@dataclass(frozen=True, slots=True)
-class Cell:
-    """One planner with one fleet on one scenario.
-
-    Parameters
-    ----------
-    scenario
-        Number of the paper scenario.
-    planner
-        Who steers.
-    fleet_size
-        Number of AUVs; None for the estimate of tier 1.
-    runs
-        Number of oceans.
-    seed
-        Seed of plans and luck.
-    reserve
-        Standard deviations of the remaining time kept in hand.
-    gap
-        Whether every run is compared with a clairvoyant plan.
-    actuation
-        What legs take: "abstraction" for (12), "vehicle" for what a vehicle takes that sails them.
-    """
-
-    scenario: int
-    planner: str
-    fleet_size: int | None
-    runs: int
-    seed: int = 0
-    reserve: float = 1.645
-    gap: bool = False
-    actuation: str = "abstraction"
-
-    @property
-    def key(self) -> str:
-        """Names what the outcome depends on: the cell, and the source that it is computed by."""
-        source = source_digest(__name__)
-        text = json.dumps({**asdict(self), "source": source, "version": fiveroute.__version__})
-        return hashlib.sha256(text.encode()).hexdigest()[:24]
-
-
-@dataclass(frozen=True, slots=True)
-class Outcome:
-    """What became of a cell.
-
-    Parameters
-    ----------
-    cell
-        The cell.
-    fleet_size
-        AUVs that sailed.
-    planned
-        Completion rate of the plan.
-    completions
-        Completion rate of every run.
-    clairvoyant
-        Completion rate of the clairvoyant plan of every run; empty where not asked for.
-    late_returns, double_visits, collisions, lost
-        Over all runs; an AUV is lost that a current or obstacles keep from arriving.
-    min_clearance
-        Least clearance of all tracks in metres; None where no vehicle sailed.
-    """
-
-    cell: Cell
-    fleet_size: int
-    planned: float
-    completions: tuple[float, ...]
-    clairvoyant: tuple[float, ...]
-    late_returns: int
-    double_visits: int
-    collisions: int = 0
-    lost: int = 0
-    min_clearance: float | None = None
-
-    @property
-    def mean(self) -> float:
-        """Mean completion rate."""
-        return float(np.mean(self.completions))
-
-    @property
-    def online_gap(self) -> float | None:
-        """Mean of (clairvoyant - completion) / clairvoyant."""
-        if not self.clairvoyant:
-            return None
-        best, got = np.array(self.clairvoyant), np.array(self.completions)
-        return float(np.mean((best - got) / np.maximum(best, 1e-12)))
 
 
 def cells_of(
@@ -171,82 +66,100 @@ def cells_of(
     return cells
 
 
-def sail_cell(cell: Cell) -> Outcome:
-    """Plan, and sail all runs of a cell."""
-    instance = paper_scenario(cell.scenario)
-    fleet = cell.fleet_size
-    if fleet is None:
-        rng = np.random.default_rng((cell.seed, cell.scenario))
-        fleet = fleet_size_of(instance, rng=rng)
-    seed = cell.seed * 1000 + cell.scenario
-    if cell.actuation == "vehicle":
-        theatre = replace(_sailed(cell.scenario, seed), problem=instance.problem(fleet))
-    else:
-        theatre = Theatre.of(instance, fleet)
-    plan = departure_plan(theatre.by_law, cell.planner, reserve=cell.reserve, seed=cell.seed)
-    result = simulate_fleet(
-        theatre,
-        plan,
-        planner=cell.planner,
-        runs=cell.runs,
-        reserve=cell.reserve,
-        seed=seed,
-        log=False,
-        gap=cell.gap,
-    )
-    return Outcome(
-        cell,
-        fleet,
-        result.planned_completion,
-        tuple(result.completions.tolist()),
-        tuple(run.clairvoyant for run in result.runs if run.clairvoyant is not None),
-        result.late_returns,
-        result.double_visits,
-        result.collisions,
-        result.lost,
-        result.min_clearance,
-    )
-
-
-@cache
-def _sailed(scenario: int, seed: int) -> Theatre:
-    """A scenario whose legs a vehicle sails; the law that is fitted to it knows no fleet."""
-    instance = paper_scenario(scenario)
-    return Theatre.of(instance, 1).sailed_by(VehicleModel.of(Voyage.straight(instance)), seed)
-
-
 def sail_cells(
     cells: Sequence[Cell],
     folder: Path | None = None,
     *,
     workers: int = 1,
     scheduler: str | None = None,
-) -> Generator[Outcome]:
-    """Outcomes of cells as they are done, those that the folder has first.
+    limits: Limits | None = None,
+    progress: ProgressCallback | None = None,
+) -> list[Outcome]:
+    """Outcomes of cells in their order; where the limits end it before, of those that are whole.
 
     Parameters
     ----------
     cells
         What is to be sailed.
     folder
-        Where outcomes are kept; None keeps none.
+        Where plans and runs are kept, and taken from; None keeps none.
     workers
         Processes.
     scheduler
         Address of a Dask scheduler to sail on instead; None stays on this machine.
+    limits
+        When to stop.
+    progress
+        Told how many plans, and then how many runs are done of those that were missing.
     """
-    missing = []
-    for cell in cells:
-        kept = None if folder is None else _kept(folder, cell)
-        if kept is None:
-            missing.append((cell,))
-        else:
-            yield kept
-    with closing(share_out(sail_cell, missing, workers=workers, scheduler=scheduler)) as outcomes:
-        for outcome in outcomes:
-            if folder is not None:
-                _keep(folder, outcome)
-            yield outcome
+    clock = (limits or Limits()).start()
+    books = {cell: _Book.of(cell, folder) for cell in cells}
+
+    def share(
+        work: Callable[..., tuple[Cell, Any]],
+        tasks: Sequence[tuple[Any, ...]],
+        enter: Callable[[_Book, Any], None],
+        what: str,
+    ) -> None:
+        with closing(share_out(work, tasks, workers=workers, scheduler=scheduler)) as answers:
+            for done, (cell, answer) in enumerate(answers, start=1):
+                enter(books[cell], answer)
+                if progress is not None:
+                    message = f"{what} {done} of {len(tasks)}"
+                    progress(Progress(clock.seconds, message=message))
+                if clock.expired:
+                    break
+
+    share(depart, [(c,) for c in cells if books[c].departure is None], _Book.set_out, "plan")
+    if not clock.expired:
+        share(sail_run, [task for c in cells for task in books[c].missing], _Book.add, "run")
+    return [outcome for book in books.values() if (outcome := book.outcome) is not None]
+
+
+@dataclass(slots=True)
+class _Book:
+    """What is known of a cell, and kept in a folder, if there is one."""
+
+    cell: Cell
+    rows: KeptRows | None = None
+    journal: Journal | None = None
+    departure: Departure | None = None
+    runs: dict[int, RunResult] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, cell: Cell, folder: Path | None) -> _Book:
+        """The book of a cell, as far as it is written."""
+        if folder is None:
+            return cls(cell)
+        rows, journal = KeptRows(folder), Journal(folder / f"{cell.label}-{cell.key}.jsonl")
+        row = rows.get(cell.label, cell.key)
+        departure = None if row is None else Departure.of_document(row)
+        return cls(cell, rows, journal, departure, {run.run: run for run in journal.runs()})
+
+    @property
+    def missing(self) -> list[tuple[Cell, Departure | None, int]]:
+        """Arguments of `sail_run` for the runs that nobody has sailed."""
+        runs = sorted({*range(self.cell.runs)} - self.runs.keys())
+        return [(self.cell, self.departure, run) for run in runs]
+
+    def set_out(self, departure: Departure) -> None:
+        """Enter what the fleet sets out with."""
+        self.departure = departure
+        if self.rows is not None:
+            self.rows.put(self.cell.label, self.cell.key, departure.document)
+
+    def add(self, run: RunResult) -> None:
+        """Enter a run."""
+        self.runs[run.run] = run
+        if self.journal is not None:
+            self.journal.add([run])
+
+    @property
+    def outcome(self) -> Outcome | None:
+        """What became of the cell, if all of its runs are sailed."""
+        if self.departure is None or self.missing:
+            return None
+        return Outcome.of(self.cell, self.departure, [self.runs[k] for k in range(self.cell.runs)])
 
 
 def registered(folder: Path, config: Mapping[str, Any], *, force: bool = False) -> Registry:
@@ -264,25 +177,3 @@ def registered(folder: Path, config: Mapping[str, Any], *, force: bool = False) 
     scenarios = map(paper_scenario, range(1, config["scenarios"] + 1))
     inputs = {scenario.name: instance_hash(scenario) for scenario in scenarios}
     return Registry.begin(folder / "run.json", config, inputs, __name__, force=force)
-
-
-def _file(folder: Path, cell: Cell) -> Path:
-    fleet = "m" if cell.fleet_size is None else str(cell.fleet_size)
-    return folder / f"{cell.scenario:02d}-{cell.planner}-{fleet}-{cell.key}.json"
-
-
-def _keep(folder: Path, outcome: Outcome) -> None:
-    folder.mkdir(parents=True, exist_ok=True)
-    text = json.dumps(asdict(outcome), allow_nan=False)
-    write_text_atomically(_file(folder, outcome.cell), text + "\n", force=True)
-
-
-def _kept(folder: Path, cell: Cell) -> Outcome | None:
-    """The outcome of a cell, if the folder has it whole."""
-    try:
-        document: dict[str, Any] = json.loads(_file(folder, cell).read_text(encoding="utf-8"))
-        rest = {name: document[name] for name in Outcome.__slots__ if name != "cell"}
-    except (OSError, ValueError, KeyError):
-        return None
-    rest |= {name: tuple(rest[name]) for name in ("completions", "clairvoyant")}
-    return Outcome(cell, **rest)

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 
 from fiveroute.experiments.preplanning_report import statistics_of
 from fiveroute.experiments.published import EQUAL_FLEET_ADVANTAGE, FEWER_AUVS, FLEETS, WINS
-from fiveroute.experiments.stochastic import COMPETITORS, FIXED_FLEET, Outcome
+from fiveroute.experiments.stochastic import COMPETITORS, FIXED_FLEET
+from fiveroute.experiments.stochastic_cell import Outcome
 from fiveroute.formats.files import require_writable, write_text_atomically
 
 __all__ = ["FILES", "report", "summary", "write_report"]

@@ -13,6 +13,7 @@ from fiveroute.problem import TeamOrienteering, completion_rate
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.sailed_luck import SailedLuck, VehicleModel
 from fiveroute.tiers.actuation import LegLaw, leg_law, uncertainty_of
+from fiveroute.vehicle.fit import Fit
 
 __all__ = ["Theatre"]
 
@@ -87,25 +88,32 @@ class Theatre:
     ) -> Theatre:
         """The same mission, its legs sailed by a vehicle, and the law fitted to what it does.
 
-        Equation (12) knows no delay on the average; here a leg is expected to take as much longer
-        than planned as it did when the law was fitted, and scatters about that.
-
         Parameters
         ----------
         model
             How legs are sailed.
         seed
-            Seed of the simulation; the fit has oceans of its own.
+            Seed of the simulation.
         limits
             When to end the fit.
         """
-        planned = self.problem.travel
-        fit = model.fit(planned, seed=seed + _TRIAL_OCEANS, limits=limits)
+        return self.expecting(model, self.fitted(model, seed, limits=limits))
+
+    def fitted(self, model: VehicleModel, seed: int = 0, *, limits: Limits | None = None) -> Fit:
+        """What the legs of the mission make of the vehicle, in oceans of the fit's own."""
+        return model.fit(self.problem.travel, seed=seed + _TRIAL_OCEANS, limits=limits)
+
+    def expecting(self, model: VehicleModel, fit: Fit) -> Theatre:
+        """The same mission, its legs sailed by a vehicle of which a fit is known.
+
+        Equation (12) knows no delay on the average; here a leg is expected to take as much longer
+        than planned as it did when the law was fitted, and scatters about that.
+        """
         delay = fit.delay.value
         uncertainty = replace(
             fit.uncertainty, drift=fit.drift.value / (1.0 + delay), floor=self.law.floor
         )
-        law = leg_law((1.0 + delay) * planned, self.lengths_km, uncertainty)
+        law = leg_law((1.0 + delay) * self.problem.travel, self.lengths_km, uncertainty)
         return replace(self, law=law, model=model)
 
     @property

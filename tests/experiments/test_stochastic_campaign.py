@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import signal
 import subprocess
 import sys
@@ -9,11 +10,29 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from fiveroute.experiments.stochastic import Cell, Outcome, cells_of, sail_cell, sail_cells
+from fiveroute.experiments.stochastic import cells_of, sail_cells
+from fiveroute.experiments.stochastic_cell import Cell, Departure, Outcome
 from fiveroute.experiments.stochastic_report import FILES, report, summary, write_report
+from fiveroute.limits import Limits, Progress
+from fiveroute.routes import Plan
+from fiveroute.vehicle.fit import Estimate, Fit
+
+RUNS = 6
+CELLS = [Cell(1, "rmmp", fleet, RUNS) for fleet in (1, 2)]
+
+PROGRAM = f"""
+import sys, time
+from pathlib import Path
+from fiveroute.experiments.stochastic import sail_cells
+from fiveroute.experiments.stochastic_cell import Cell
+
+def wait(progress):
+    time.sleep(0.5 * progress.message.startswith("run"))
+
+sail_cells({CELLS}, Path(sys.argv[1]), progress=wait)
+"""
 
 
 def made_up(scenarios: int = 3) -> list[Outcome]:
@@ -33,13 +52,13 @@ def test_six_cells_a_scenario() -> None:
     cells = cells_of(2, runs=5)
     assert len(cells) == 12
     assert len({cell.key for cell in cells}) == 12
-    assert replace(cells[0], runs=6).key != cells[0].key
+    assert replace(cells[0], seed=1).key != cells[0].key
+    assert replace(cells[0], runs=6).key == cells[0].key, "more runs begin with the same ones"
 
 
 def test_a_vehicle_sails_the_same_ocean_for_all() -> None:
     cells = [Cell(1, planner, 2, runs=2, actuation="vehicle") for planner in ("rmmp", "ftcmp")]
-    outcomes = [sail_cell(cell) for cell in cells]
-    for outcome in outcomes:
+    for outcome in sail_cells(cells):
         assert outcome.collisions == 0
         assert outcome.min_clearance is not None
         assert outcome.min_clearance > 0.0
@@ -56,13 +75,34 @@ def test_a_cluster_that_loses_a_worker_sails_the_same_cells(tmp_path: Path) -> N
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50
     ) as cluster:
-        outcomes: list[Outcome] = []
-        for outcome in sail_cells(cells, tmp_path, scheduler=cluster.scheduler_address):
-            if not outcomes:
+        seen: list[Progress] = []
+
+        def kill_one(progress: Progress) -> None:
+            if not seen:
                 next(iter(cluster.workers.values())).process.process.kill()
-            outcomes.append(outcome)
-    assert sorted(outcomes, key=lambda outcome: outcome.fleet_size) == list(sail_cells(cells))
-    assert len(list(tmp_path.iterdir())) == len(cells)
+            seen.append(progress)
+
+        there = sail_cells(cells, tmp_path, scheduler=cluster.scheduler_address, progress=kill_one)
+    assert there == sail_cells(cells)
+    assert len(seen) == len(cells) + sum(cell.runs for cell in cells)
+
+
+def test_the_numbers_do_not_depend_on_the_workers() -> None:
+    cells = [Cell(1, "rmmp", 1, runs=3), Cell(2, "rmmp", 1, runs=2)]
+    assert sail_cells(cells, workers=2) == sail_cells(cells)
+
+
+def test_what_a_cell_sets_out_with_comes_back_as_it_was() -> None:
+    share = Estimate(0.1, 0.01)
+    fit = Fit(share, share, share, Estimate(0.0, 0.02), legs=9, failed=1)
+    for departure in (
+        Departure(Plan(((1, 2), ())), 0.75),
+        Departure(Plan(((3,),)), 0.5, fit),
+    ):
+        document = json.loads(json.dumps(departure.document))
+        assert Departure.of_document(document) == departure
+    for spoilt in ({"plan": None}, document | {"fit": {"drift": 1}}, document | {"plan": [1]}):
+        assert Departure.of_document(spoilt) is None
 
 
 def test_figures_of_known_outcomes() -> None:
@@ -97,38 +137,63 @@ def test_the_report_is_written_whole(tmp_path: Path) -> None:
     assert "2 of 3" in text
 
 
-def test_a_cell_is_repeatable_and_kept(tmp_path: Path) -> None:
+def test_what_is_kept_is_taken_and_what_is_spoilt_is_not(tmp_path: Path) -> None:
     cell = Cell(1, "rmmp", 3, runs=3)
     (first,) = sail_cells([cell], tmp_path)
-    assert first == sail_cell(cell)
-    (file,) = tmp_path.iterdir()
-    file.write_text(file.read_text().replace('"planned": ', '"planned": 1'))
+    (row,), (journal,) = tmp_path.glob("*.json"), tmp_path.glob("*.jsonl")
+    row.write_text(row.read_text().replace('"planned": ', '"planned": 1'))
     (kept,) = sail_cells([cell], tmp_path)
     assert kept.planned != first.planned, "it must come from the file"
-    file.write_text("cut sho")
+    row.write_text("cut sho")
+    journal.write_text(journal.read_text()[:-9])
     (again,) = sail_cells([cell], tmp_path)
     assert again == first
+    (longer,) = sail_cells([replace(cell, runs=4)], tmp_path)
+    assert longer.completions[:3] == first.completions
+    assert _sailed(journal) == [0, 1, 2, 3]
+
+
+def test_an_end_that_is_asked_for_leaves_whole_cells(tmp_path: Path) -> None:
+    cells = [Cell(1, "rmmp", fleet, runs=1) for fleet in (1, 2)]
+    limits = Limits()
+
+    def stop(progress: Progress) -> None:
+        if progress.message.startswith("run"):
+            limits.interrupt.set()
+
+    some = sail_cells(cells, tmp_path, limits=limits, progress=stop)
+    assert [outcome.cell for outcome in some] == cells[:1]
+    assert sail_cells(cells, tmp_path)[:1] == some
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="SIGKILL")
-def test_a_campaign_that_is_killed_goes_on(tmp_path: Path) -> None:
-    """Killed after its first cell; what was done is taken over, and the figures are the same."""
-    cells = [Cell(1, "rmmp", fleet, runs=2) for fleet in (2, 3, 4)]
-    program = (
-        "import sys, time; from pathlib import Path\n"
-        "from fiveroute.experiments.stochastic import Cell, sail_cells\n"
-        "cells = [Cell(1, 'rmmp', fleet, runs=2) for fleet in (2, 3, 4)]\n"
-        "for _ in sail_cells(cells, Path(sys.argv[1])): time.sleep(60)\n"
-    )
-    process = subprocess.Popen([sys.executable, "-c", program, str(tmp_path)])
-    while not list(tmp_path.glob("*.json")):
+def test_a_campaign_that_is_killed_in_mid_cell_loses_no_finished_run(tmp_path: Path) -> None:
+    process = subprocess.Popen([sys.executable, "-c", PROGRAM, str(tmp_path)])
+    while not any(len(_sailed(file)) >= 2 for file in tmp_path.glob("*.jsonl")):
         assert process.poll() is None
         time.sleep(0.05)
     process.send_signal(signal.SIGKILL)
     process.wait()
-    (kept,) = tmp_path.glob("*.json")
-    before = kept.stat().st_mtime_ns
-    resumed = list(sail_cells(cells, tmp_path))
-    assert kept.stat().st_mtime_ns == before
-    assert resumed == [sail_cell(cell) for cell in cells]
-    assert np.isfinite([outcome.mean for outcome in resumed]).all()
+    (journal,) = tmp_path.glob("*.jsonl")
+    finished = len(_sailed(journal))
+    assert 2 <= finished < RUNS
+    begun = {file: file.stat().st_mtime_ns for file in tmp_path.glob("*.json")}
+    told: list[str] = []
+    resumed = sail_cells(CELLS, tmp_path, progress=lambda it: told.append(it.message))
+    assert told[-1] == f"run {2 * RUNS - finished} of {2 * RUNS - finished}", "and no plan"
+    assert begun == {file: file.stat().st_mtime_ns for file in tmp_path.glob("*.json")}
+    for file in tmp_path.glob("*.jsonl"):
+        assert _sailed(file) == [*range(RUNS)], "no finished run was sailed again"
+    assert resumed == sail_cells(CELLS)
+
+
+def _sailed(journal: Path) -> list[int]:
+    """Numbers of the runs that a journal has, as often as they were sailed."""
+    return sorted(run for line in journal.read_text().splitlines() if (run := _number(line)) >= 0)
+
+
+def _number(line: str) -> int:
+    try:
+        return int(json.loads(line)["run"])
+    except ValueError:
+        return -1
