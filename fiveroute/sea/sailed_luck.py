@@ -28,7 +28,7 @@ from fiveroute.paths.voyage import Voyage
 from fiveroute.sea.luck import Leg
 from fiveroute.tiers.actuation import uncertainty_of
 from fiveroute.vehicle.dynamics import Vehicle
-from fiveroute.vehicle.fit import Estimate, Fit, SailedLegs, fit_uncertainty, sail_legs
+from fiveroute.vehicle.fit import Fit, SailedLegs, drift_of_walks, fit_uncertainty, sail_legs
 from fiveroute.vehicle.guidance import Guidance
 from fiveroute.vehicle.obstacle_avoidance import Avoidance
 from fiveroute.vehicle.sailed_track import Outcome, SailedTrack
@@ -47,8 +47,11 @@ _CORRIDOR = 150.0
 _OVERTIME = 1.5
 """Endurances for which a current that varies is known; it stays as it is thereafter."""
 
-_STRIDES = 4
-"""Legs of a walk that the fit is made of."""
+_STRIDES = 3
+"""Legs of a walk that the fit is made of, besides the leg home."""
+
+_LEAST = 5
+"""Oceans that a fit is made in at least."""
 
 _NEIGHBOURS = 6
 """They lead to one of so many nearest stops, as the legs of routes do."""
@@ -155,11 +158,10 @@ class VehicleModel:
     ) -> Fit:
         """What (12) should assume of legs such as routes are made of.
 
-        (12) takes legs for independent, but those of a route follow each other through the same
-        water. So walks of several legs are sailed, and the drift is the one by which independent
-        legs would be as late together as these are: with the walk's delay d, less the mean one,
-
-            drift^2 = mean of d^2 / sum of t^2 over the legs of the walk.
+        (12) takes legs for independent and their times for normal. The legs of a route follow
+        each other through the same water, and a current ahead delays more than one astern helps. So
+        walks home of several legs are sailed, which are what a reserve is for, and the drift is
+        that of `drift_of_walks`.
 
         Parameters
         ----------
@@ -170,14 +172,14 @@ class VehicleModel:
         oceans, walks
             Number of oceans, and of walks sailed in each.
         limits
-            When to stop; the fit is made of the walks that were sailed, one ocean's at least.
+            When to stop; the fit is made of the walks that were sailed, five oceans' at least.
         """
         clock, rng = (limits or Limits()).start(), np.random.default_rng((seed, 6))
         if self.legs is not None:
             planned = np.where(np.isfinite(self.legs.times), planned, np.inf)
         sailed: list[SailedLegs] = []
         for run in range(oceans):
-            if sailed and clock.expired:
+            if run >= _LEAST and clock.expired:
                 break
             ocean = self.ocean(seed, run)
             ways = (_walk(planned, rng) for _ in range(walks))
@@ -185,7 +187,7 @@ class VehicleModel:
         together = _joined(sailed)
         fit = fit_uncertainty(together)
         walk = np.repeat(np.arange(len(sailed)), [len(legs.planned) for legs in sailed])
-        return replace(fit, drift=_drift_of_walks(together, walk, fit.delay.value))
+        return replace(fit, drift=drift_of_walks(together, walk, fit.delay.value))
 
     def _both_ways(self, ocean: TrueOcean, legs: Sequence[Stops], planned: Floats) -> SailedLegs:
         """Legs sailed without and with unknown obstacles."""
@@ -263,21 +265,21 @@ def _strays(positions: Floats, track: Floats, within: float) -> bool:
 
 
 def _walk(planned: Floats, rng: np.random.Generator) -> list[Stops]:
-    """Legs that follow each other from stop to near stop, as those of a route do."""
-    last = len(planned) - 1
-    tail, legs = int(rng.integers(last)), []
-    been = {0}
+    """Legs that follow each other from stop to near stop, each nearer to home, and then home."""
+    home, legs = len(planned) - 1, []
+    tail = int(rng.integers(home))
     for _ in range(_STRIDES):
-        been.add(tail)
-        times = planned[tail].copy()
-        times[[*been]] = math.inf
-        times[times == 0.0] = math.inf  # the same place
+        nearer = planned[:, home] < planned[tail, home]
+        nearer[0] = False  # nobody goes back to the start
+        times = np.where(nearer & (planned[tail] > 0.0), planned[tail], math.inf)
         near = [head for head in np.argsort(times)[:_NEIGHBOURS].tolist() if times[head] < math.inf]
-        if tail == last or not near:
+        if not near:
             break
         head = near[int(rng.integers(len(near)))]
         legs.append((tail, head))
         tail = head
+    if 0.0 < planned[tail, home] < math.inf:
+        legs.append((tail, home))
     return legs
 
 
@@ -289,15 +291,3 @@ def _joined(parts: Sequence[SailedLegs]) -> SailedLegs:
             for column in fields(SailedLegs)
         )
     )
-
-
-def _drift_of_walks(legs: SailedLegs, walk: NDArray[np.int64], delay: float) -> Estimate:
-    """The drift of independent legs that are as late together as those of walks."""
-    arrived = np.isfinite(legs.unhindered)
-    planned = np.where(arrived, legs.planned, 0.0)
-    late = np.where(arrived, legs.unhindered, 0.0) - (1.0 + delay) * planned
-    squares = np.bincount(walk, planned**2)
-    sailed = squares > 0.0
-    shares = np.bincount(walk, late)[sailed] ** 2 / squares[sailed]
-    drift = math.sqrt(float(shares.mean()))
-    return Estimate(drift, drift / math.sqrt(2.0 * len(shares)))

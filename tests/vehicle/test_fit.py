@@ -5,15 +5,17 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
 from fiveroute.instance import Uncertainty
 from fiveroute.ocean.current_grid import CurrentGrid
 from fiveroute.paths.legs import track_time
 from fiveroute.vehicle.dynamics import Vehicle
-from fiveroute.vehicle.fit import SailedLegs, fit_uncertainty, sail_legs
+from fiveroute.vehicle.fit import SailedLegs, drift_of_walks, fit_uncertainty, sail_legs
 from fiveroute.vehicle.unknown_obstacles import strewn_discs
 
+Numbers = NDArray[np.int64]
 Water = Callable[[float, float], CurrentGrid]
 
 
@@ -63,6 +65,43 @@ def test_a_fit_takes_legs() -> None:
     legs = drawn_legs(Uncertainty(), 1, np.random.default_rng(4))
     with pytest.raises(InputError, match="two legs"):
         fit_uncertainty(legs)
+
+
+def walks(count: int, strides: int, apart: float, together: float) -> tuple[SailedLegs, Numbers]:
+    """Walks whose legs' paces scatter, each by itself and all legs of a walk together."""
+    rng = np.random.default_rng(7)
+    pace = 1.0 + apart * rng.standard_normal((count, strides))
+    pace += together * rng.standard_normal((count, 1))
+    planned = rng.uniform(300.0, 900.0, (count, strides))
+    took, none = (planned / pace).ravel(), np.zeros(count * strides)
+    legs = SailedLegs(planned.ravel(), none, took, took, none.astype(np.int64))
+    return legs, np.repeat(np.arange(count), strides)
+
+
+def test_independent_legs_that_scatter_little_have_the_drift_they_are_drawn_with() -> None:
+    legs, walk = walks(4000, 4, 0.005, 0.0)
+    drift = drift_of_walks(legs, walk, 0.0)
+    assert drift.value == pytest.approx(0.005, rel=0.05)
+    assert drift.error == pytest.approx(0.005 / math.sqrt(8000.0), rel=0.1)
+
+
+@pytest.mark.parametrize(("apart", "together"), [(0.2, 0.0), (0.0, 0.15), (0.15, 0.15)])
+def test_one_walk_in_two_hundred_is_later(apart: float, together: float) -> None:
+    legs, walk = walks(20_000, 4, apart, together)
+    drift = drift_of_walks(legs, walk, 0.0).value
+    late = np.bincount(walk, legs.unhindered - legs.planned)
+    allowed = 2.576 * drift * np.sqrt(np.bincount(walk, legs.planned**2))
+    assert 0.003 < (late > allowed).mean() < 0.008
+    assert drift > 1.2 * math.hypot(apart, together)
+
+
+def test_a_leg_that_failed_is_no_part_of_its_walk() -> None:
+    legs, walk = walks(50, 4, 0.1, 0.1)
+    done = np.arange(len(walk)) % 7 > 0
+    times, none = legs.unhindered[done], legs.manoeuvres[done]
+    without = SailedLegs(legs.planned[done], legs.lengths_km[done], times, times, none)
+    legs.unhindered[~done] = math.inf
+    assert drift_of_walks(legs, walk, 0.0) == drift_of_walks(without, walk[done], 0.0)
 
 
 def test_the_vehicle_manoeuvres_as_often_as_obstacles_lie_in_its_way(water: Water) -> None:
