@@ -34,7 +34,7 @@ from fiveroute.sea.messages import (
     Wish,
 )
 from fiveroute.sea.picking import Offers, offers
-from fiveroute.sea.replanning import TRIALS, replan
+from fiveroute.sea.recourse import reconsider
 from fiveroute.sea.voyage import Voyage, course_of
 from fiveroute.sea.watch import Watch
 
@@ -185,8 +185,7 @@ class Agent:
     def _replan(self, t: float) -> None:
         """(24) to (27) for itself alone: the best course over the nodes that are its own."""
         own, course = self.holdings, self.course(t)
-        seed = (self._voyage.luck.run * 997 + self.number) * 997 + len(own.done)
-        better, left_over = replan(self.view, course, own.kept, TRIALS, seed)
+        better, left_over = reconsider(self.view, course, own.kept)
         picked = own.kept.intersection(better.route)
         self._drop(t, sorted(set(course.route).intersection(left_over)))
         own.route[:] = better.route

@@ -35,14 +35,30 @@ from numpy.typing import NDArray
 from fiveroute.kernels import kernel
 from fiveroute.problem import TeamOrienteering
 from fiveroute.routes import Route
-from fiveroute.tiers.actuation import LegLaw, expected_legs
+from fiveroute.tiers.actuation import LegLaw, expected_legs, overruns
 
-__all__ = ["LONGEST_LEG", "Course", "Outlook", "Stops", "in_hand", "outlook", "time_in_hand"]
+__all__ = [
+    "LAST_BET",
+    "LONGEST_LEG",
+    "Course",
+    "Outlook",
+    "Stops",
+    "in_hand",
+    "outlook",
+    "time_in_hand",
+]
 
 Stops = NDArray[np.int64]
 
 LONGEST_LEG = 1.5
 """How often the variance of the longest leg counts besides its own place in the sum."""
+
+LAST_BET = 1.25
+"""Standard deviations that the last bet keeps for each of the reserve, see `recourse`."""
+
+_STEPS, _MOST_STEPS = 100, 400  # of time in the longest budget
+_FINENESS = 0.75  # longest step, in standard deviations of a short leg
+_SUREST = 1e-9  # least probability that a last bet is lost
 
 
 class Outlook(NamedTuple):
@@ -60,8 +76,17 @@ class Outlook(NamedTuple):
         Data rho_j of every vertex, shape (n + 2,).
     reserve
         z, standard deviations of the remaining time kept in hand.
+    longest
+        How often the variance of the longest leg counts besides its own place in the sum.
     slack
         Seconds by which a budget may be overrun, for rounding.
+    late
+        Probability that the leg home from a vertex takes longer than 0, 1, 2, ... steps, shape
+        (n + 2, steps).
+    step
+        Seconds of a step.
+    price
+        Data that a late return costs, see `fiveroute.sea.recourse`.
     """
 
     legs: NDArray[np.float64]
@@ -69,7 +94,11 @@ class Outlook(NamedTuple):
     service: NDArray[np.float64]
     profit: NDArray[np.float64]
     reserve: float
+    longest: float
     slack: float
+    late: NDArray[np.float64]
+    step: float
+    price: float
 
 
 def outlook(problem: TeamOrienteering, law: LegLaw, reserve: float) -> Outlook:
@@ -77,7 +106,27 @@ def outlook(problem: TeamOrienteering, law: LegLaw, reserve: float) -> Outlook:
     mean, variance = expected_legs(law)
     slack = float((problem.allowed - problem.budgets).min())
     service, profit = problem.service.copy(), problem.profit.copy()
-    return Outlook(mean + service, variance, service, profit, reserve, slack)
+    longest, short = float(problem.budgets.max()), float(np.quantile(np.sqrt(variance), 0.1))
+    steps = min(max(math.ceil(longest / max(_FINENESS * short, 1e-9)), _STEPS), _MOST_STEPS)
+    times = np.linspace(0.0, longest, steps + 1)
+    return Outlook(
+        legs=mean + service,
+        variance=variance,
+        service=service,
+        profit=profit,
+        reserve=reserve,
+        longest=LONGEST_LEG,
+        slack=slack,
+        late=overruns(law, problem.destination, times),
+        step=longest / steps,
+        price=_price_of_being_late(profit[1:-1], reserve),
+    )
+
+
+def _price_of_being_late(data: NDArray[np.float64], reserve: float) -> float:
+    """Data that a late return costs, if a mean node is worth the last bet that may be made."""
+    lost = 0.5 * math.erfc(LAST_BET * reserve / math.sqrt(2.0))
+    return float(data.mean()) / max(lost, _SUREST) if len(data) else 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,5 +177,5 @@ def time_in_hand(view: Outlook, stops: Stops, length: int, left: float, spread: 
         variance = view.variance[stops[at - 1], stops[at]]
         uncertain += variance
         widest = max(widest, variance)
-    uncertain += LONGEST_LEG * widest
+    uncertain += view.longest * widest
     return float(left - needed - view.reserve * math.sqrt(uncertain) + view.slack)

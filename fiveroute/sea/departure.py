@@ -5,8 +5,13 @@ time, and what does not fit is discarded under way, where nothing better can rep
 plan for an uncertain ocean takes slack: all legs are longer by a factor. It also does well to end
 near the destination, since the long last leg of an AUV needs a long reserve: legs to the
 destination take `home` standard deviations more. How much of both is best depends on the mission,
-so several plans are made, and rehearsed: each is sailed with the same luck by whoever will steer,
-and the one that collects most is taken. The luck of the rehearsals is not that of the simulation.
+so several plans are made.
+
+Of these, planners without recourse take by rehearsal: each plan is sailed with the same luck by
+whoever will steer, and the one that collects most is taken. The luck of the rehearsals is not
+that of the simulation. The five-tiered planner can leave nodes out and take idle ones in, and
+what its courses are worth is known without sailing (`fiveroute.sea.recourse`): from each plan a
+search goes on for the courses that are worth most, nodes to be visited with luck included.
 
 The planners that the paper compares with plan in their own ways, clusters by k-means or Voronoi
 cells and routes through them, and rehearse like the others.
@@ -26,6 +31,9 @@ from fiveroute.heuristics.shortest_routes import shortest_routes
 from fiveroute.limits import Clock, Limits
 from fiveroute.problem import TeamOrienteering
 from fiveroute.routes import Plan
+from fiveroute.sea.course import Course, outlook
+from fiveroute.sea.option_search import best_options
+from fiveroute.sea.recourse import reconsider, with_recourse
 from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
 from fiveroute.tiers.actuation import expected_legs
@@ -37,6 +45,7 @@ CAUTIONS = ((1.0, 2.0), (1.0, 3.0), (1.0, 5.0), (1.05, 2.0), (1.05, 3.0), (1.05,
 
 _SLACKS = (1.0, 1.04, 1.08, 1.12)
 _TRIALS = 30_000  # of the fleet search, for a plan
+_OPTION_TRIALS = 8_000  # of the search for options, for a plan
 _REHEARSALS = 1 << 40  # added to the seed
 
 
@@ -49,7 +58,7 @@ def departure_plan(
     seed: int = 0,
     limits: Limits | None = None,
 ) -> Plan:
-    """The plan that a fleet sets out with: the best of several in rehearsals.
+    """The plan that a fleet sets out with: the best of several, by what it is worth at sea.
 
     Parameters
     ----------
@@ -60,7 +69,7 @@ def departure_plan(
     reserve
         Standard deviations of the remaining time that will be kept in hand.
     runs
-        Rehearsals of every plan.
+        Rehearsals of every plan; the five-tiered planner needs none.
     seed
         Seed of the random numbers.
     limits
@@ -77,6 +86,8 @@ def departure_plan(
             plans.append(_cautious_plan(theatre, *choice, rng))
         else:
             plans.append(_cluster_plan(theatre, planner, choice, np.random.default_rng(seed)))
+    if planner == "five-tier":
+        return _with_options(theatre, plans, reserve, rng, clock)
     return rehearse(theatre, plans, planner, reserve=reserve, runs=runs, seed=seed, clock=clock)
 
 
@@ -122,6 +133,18 @@ def _cautious_plan(theatre: Theatre, slack: float, home: float, rng: np.random.G
     if shortest_routes(problem) is None:
         return Plan.empty(known.fleet_size)
     return fleet_search(problem, rng=rng, iterations=_TRIALS)
+
+
+def _with_options(
+    theatre: Theatre, plans: Sequence[Plan], reserve: float, rng: np.random.Generator, clock: Clock
+) -> Plan:
+    """What is expected of the courses that are worth most, options included, near any plan."""
+    view = with_recourse(outlook(theatre.problem, theatre.law, reserve))
+    budgets = theatre.problem.budgets
+    found = [best_options(view, plan.routes, budgets, _OPTION_TRIALS, rng, clock) for plan in plans]
+    options, _ = max(found, key=lambda pair: pair[1])
+    courses = [Course(0, 0.0, 0.0, t, r) for t, r in zip(budgets.tolist(), options, strict=True)]
+    return Plan(tuple(reconsider(view, course, ())[0].route for course in courses))
 
 
 def _cluster_plan(theatre: Theatre, planner: str, slack: float, rng: np.random.Generator) -> Plan:

@@ -23,7 +23,7 @@ from fiveroute.kernels import kernel
 from fiveroute.sea.course import Course, Outlook, Stops, time_in_hand
 from fiveroute.sea.discarding import discard
 
-__all__ = ["TRIALS", "replan"]
+__all__ = ["TRIALS", "cheapest_place", "replan"]
 
 TRIALS = 100
 """Attempts to improve a course at a node; more do not help."""
@@ -146,7 +146,7 @@ def _fill_up(
         for k in range(len(pool)):
             if faint[k] <= 0.0:
                 continue
-            extra, at = _cheapest(view, stops, length, pool[k])
+            extra, at = cheapest_place(view, stops, length, pool[k])
             ratio = faint[k] * view.profit[pool[k]] / max(extra, 1.0)
             if ratio > best:
                 best, chosen, place = ratio, k, at
@@ -164,7 +164,7 @@ def _fill_up(
 
 
 @kernel
-def _cheapest(view: Outlook, stops: Stops, length: int, node: int) -> tuple[float, int]:
+def cheapest_place(view: Outlook, stops: Stops, length: int, node: int) -> tuple[float, int]:
     """Least added time of inserting a node, and the position to insert it at."""
     least, place = np.inf, 1
     for at in range(1, length):

@@ -35,6 +35,7 @@ __all__ = [
     "expected_legs",
     "leg_law",
     "manoeuvre_count",
+    "overruns",
     "uncertainty_of",
 ]
 
@@ -97,6 +98,21 @@ def expected_legs(law: LegLaw) -> tuple[Floats, Floats]:
     mean = law.planned + law.encounters * law.manoeuvre_time
     variance = (law.drift * law.planned) ** 2 + law.encounters * law.manoeuvre_time**2
     return mean, variance
+
+
+def overruns(law: LegLaw, j: int, times: Floats) -> Floats:
+    """Probabilities that the leg from each vertex to j takes longer, shape (n + 2, len(times))."""
+    from scipy.special import ndtr
+
+    planned, mean = law.planned[:, j, None], law.encounters[:, j, None]
+    deviation = np.maximum(law.drift * planned, 1e-9)
+    late, probability = np.zeros((len(planned), len(times))), np.exp(-mean)
+    most = float(mean.max())
+    for count in range(math.ceil(most + 6.0 * math.sqrt(most)) + 6):
+        spare = times - planned - count * law.manoeuvre_time
+        late += probability * ndtr(-spare / deviation)
+        probability = probability * mean / (count + 1)
+    return np.where(law.floor * planned > times, 1.0, late)
 
 
 @kernel

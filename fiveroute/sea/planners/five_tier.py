@@ -17,6 +17,7 @@ from fiveroute.sea.channel import Channel, Radio
 from fiveroute.sea.course import Outlook
 from fiveroute.sea.holdings import Holdings
 from fiveroute.sea.messages import Message
+from fiveroute.sea.recourse import with_recourse
 from fiveroute.sea.voyage import Voyage
 from fiveroute.sea.watch import SILENCE
 
@@ -63,6 +64,7 @@ class FiveTier:
             Holdings(list(route), {node for node, keeper in keepers.items() if keeper == auv})
             for auv, route in enumerate(plan.routes)
         ]
+        view = with_recourse(view)
         estates = {auv: book.mine for auv, book in enumerate(books)}
         self.agents = [
             Agent(auv, voyage, self.radio, view, book, estates, silence, self._note_takeover)
