@@ -19,6 +19,9 @@ late; but those are on one leg or two, which nothing can correct, and that is wh
 counts more. At z = 1.645 one AUV in a hundred is late without that (completion 0.887), 0.3 %
 with it (0.869), and 0.1 % if it is added twice (0.866).
 
+An AUV that looks ahead does without this addition: a late return has a price there, see
+`fiveroute.sea.recourse`.
+
 A rule that looks no further than the next node, and from there straight home, collects less: far
 out, one long leg has a greater variance than the same way in several, whose luck evens out.
 """
@@ -53,7 +56,7 @@ Stops = NDArray[np.int64]
 LONGEST_LEG = 1.5
 """How often the variance of the longest leg counts besides its own place in the sum."""
 
-LAST_BET = 1.25
+LAST_BET = 1.35
 """Standard deviations that the last bet keeps for each of the reserve, see `recourse`."""
 
 _STEPS, _MOST_STEPS = 100, 400  # of time in the longest budget

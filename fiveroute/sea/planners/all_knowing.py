@@ -7,11 +7,12 @@ delay or loss, which is more than any fleet under water has.
 from __future__ import annotations
 
 from collections.abc import Collection
+from typing import ClassVar
 
 from fiveroute.routes import Plan, Route
 from fiveroute.sea.course import Course, Outlook
 from fiveroute.sea.discarding import discard
-from fiveroute.sea.replanning import TRIALS, replan
+from fiveroute.sea.recourse import reconsider, with_recourse
 from fiveroute.sea.voyage import Voyage, course_of
 from fiveroute.sea.watch import SILENCE
 
@@ -31,8 +32,12 @@ class AllKnowing:
         What they set out with.
     """
 
+    looks_ahead: ClassVar[bool] = False
+    """Whether it calls `replan`, and so keeps the reserve of those that look ahead."""
+
     def __init__(self, voyage: Voyage, view: Outlook, plan: Plan) -> None:
-        self.voyage, self.view = voyage, view
+        self.voyage = voyage
+        self.view = with_recourse(view) if self.looks_ahead else view
         self.routes: list[Route] = list(plan.routes)
         self.idle = set(plan.idle(voyage.problem))
 
@@ -66,10 +71,9 @@ class AllKnowing:
         return course, dropped
 
     def replan(self, auv: int, t: float, idle: Collection[int]) -> None:
-        """Let an AUV at a node plan its route anew over its own and some idle nodes."""
+        """Let an AUV at a node look ahead, its own and some idle nodes being its options."""
         before = self.at_node(auv, t)
-        seed = self.voyage.luck.run * 997 + auv
-        after, left_over = replan(self.view, before, idle, TRIALS, seed)
+        after, left_over = reconsider(self.view, before, idle)
         dropped = set(before.route).intersection(left_over)
         for node in sorted(dropped):
             self.voyage.note(t, auv, "discard", node)

@@ -4,7 +4,7 @@ Every AUV is an agent that knows what it has sensed and what has reached it over
 channel. Its route as planned is its first bundle, and not for sale; nodes that the plan leaves out
 or that are discarded under way belong to nobody, and all AUVs bid psi (27) for them, by
 `fiveroute.sea.bundle` and `fiveroute.sea.consensus`. At a node an AUV first plans its own route
-anew over its own and the idle nodes, by the same search as the five-tiered planner's, and bids for
+anew over its own and the idle nodes, by `fiveroute.sea.replanning`, and bids for
 each node that this picks up what it earns a second there; then it fills its bundle behind its next
 node.
 

@@ -15,6 +15,8 @@ __all__ = ["OfOneMind"]
 class OfOneMind(AllKnowing):
     """Steers the fleet of one run."""
 
+    looks_ahead = True
+
     def steer(self, auv: int, t: float) -> int:
         """The next vertex of an AUV, after the fleet has coordinated."""
         self.idle.update(self.abandoned(t))

@@ -1,4 +1,4 @@
-"""Every AUV for itself: it plans anew over its own and all idle nodes, without an auction.
+"""Every AUV for itself: it looks ahead over its own and all idle nodes, without an auction.
 
 Word of what is idle reaches everybody at once, and whoever comes first takes what suits it best.
 The difference to `fiveroute.sea.planners.of_one_mind` is what the auction is worth.
@@ -13,6 +13,8 @@ __all__ = ["OwnPickUp"]
 
 class OwnPickUp(AllKnowing):
     """Steers the fleet of one run."""
+
+    looks_ahead = True
 
     def steer(self, auv: int, t: float) -> int:
         """The next vertex of an AUV."""

@@ -5,8 +5,8 @@ voyage, from global information. The planner itself could not be had in full; th
 reconstruction from what the paper says, and no reproduction. The fleet sets out with Voronoi
 cells. At every node all unvisited nodes are shared out anew, to the AUV that passes nearest on
 what it has left of its route, distances being weighted by remaining time (the Voronoi cells of a
-moving fleet); the AUV at the node then plans its whole route over its cell again, by the same
-search as the five-tiered planner's. With a horizon of some nodes only, or with cells about
+moving fleet); the AUV at the node then plans its whole route over its cell again, by the search of
+`fiveroute.sea.replanning`. With a horizon of some nodes only, or with cells about
 positions instead of routes, it collects less.
 
 Reference: S. Sun, B. Song, P. Wang, H. Dong, X. Chen, "Real-time mission-motion planner for
