@@ -14,7 +14,7 @@ from fiveroute.sea.discarding import discard
 from fiveroute.sea.recourse import look_ahead, next_stop, reconsider, with_recourse
 from fiveroute.sea.theatre import Theatre
 
-ROUTE = (4, 7, 2, 9, 12, 6)
+ROUTE: tuple[int, ...] = (4, 7, 2, 9, 12, 6)
 
 
 @pytest.fixture(scope="module")
