@@ -9,7 +9,7 @@ nodes 1, 2, ..., any of which may be left out. With the time tau left at node i,
 
 h being the destination and V_i = -c where tau < 0. It sails to the j for which the maximum is
 taken. This is dynamic programming with c as the Lagrange multiplier of the chance constraint that
-the AUV be in time (a priori routes with recourse: A. Campbell, M. Gendreau and B. Thomas, Annals of
+the AUV be in time (orienteering in stochastic time: A. Campbell, M. Gendreau, B. Thomas, Annals of
 Operations Research 186, 2011, doi 10.1007/s10479-011-0895-2).
 
 The price c of a late return follows from the reserve of z standard deviations. The last bet of an
