@@ -14,6 +14,7 @@ Times may be asymmetric and break the triangle inequality; budgets may differ.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -27,7 +28,7 @@ from fiveroute.heuristics.fleet.regions import Regions
 from fiveroute.heuristics.shortest_routes import shortest_routes
 from fiveroute.limits import Limits, Progress, ProgressCallback
 from fiveroute.problem import TeamOrienteering
-from fiveroute.routes import Plan
+from fiveroute.routes import Plan, Route
 
 __all__ = ["default_trials", "fleet_search"]
 
@@ -57,6 +58,7 @@ def fleet_search(
     enough: float = math.inf,
     workers: int = 1,
     progress: ProgressCallback | None = None,
+    remember: Callable[[list[Route]], None] | None = None,
 ) -> Plan:
     """Search for the plan that collects most, and among those for the fastest.
 
@@ -79,6 +81,9 @@ def fleet_search(
         Number of threads. The answer does not depend on it.
     progress
         Called with every better plan's objective.
+    remember
+        Called at the end with the good routes that the search came across, each in time for
+        some AUV, such as columns to start from.
 
     Raises
     ------
@@ -101,6 +106,8 @@ def fleet_search(
             if progress is not None and search.objective > best:
                 progress(Progress(clock.seconds, search.objective, message="fleet search"))
             best = search.objective
+    if remember is not None:
+        remember(search.routes)
     return _better_of(problem, search.plan, start)
 
 

@@ -51,6 +51,7 @@ def anneal(
     trials: int,
     temperature: float,
     price: float,
+    greed: float,
     state: RandomState,
 ) -> None:
     """Make `trials` trials at one temperature.
@@ -73,7 +74,7 @@ def anneal(
         seed = below(state, size)
         remove_strings(leg, near, stops, time, idle, log, seed, state)
         insert_nodes(
-            leg, back, near, limit, profit, weight, stops, time, idle, log, seed, mark, state
+            leg, back, near, limit, profit, weight, stops, time, idle, log, seed, mark, greed, state
         )
         gain = _gain(profit, log)
         new_total = time.sum()

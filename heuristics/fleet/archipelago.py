@@ -22,12 +22,15 @@ from fiveroute.heuristics.fleet.network import Network, trails_in
 from fiveroute.heuristics.fleet.route_pool import Pool
 from fiveroute.heuristics.fleet.schedule import stage
 from fiveroute.heuristics.randomness import random_state
-from fiveroute.routes import Plan
+from fiveroute.routes import Plan, Route
 
 __all__ = ["Archipelago"]
 
-ISLANDS = 4
-"""Number of islands."""
+MANNERS = ((1.0, 0.0), (1.0, 0.0), (1.0, 0.0), (10.0, 1.0))
+"""Temperature at the start, and greed, of every island. No one manner suits all problems."""
+
+FEW_NODES = 150
+"""Number of nodes up to which all islands are of the first manner."""
 
 
 @dataclass(slots=True)
@@ -54,9 +57,14 @@ class Archipelago:
     ) -> Archipelago:
         """Islands that all start from a plan."""
         trails = trails_in(network, plan)
+        is_small = len(network.nodes) <= FEW_NODES
+        manners = MANNERS[:1] * len(MANNERS) if is_small else MANNERS
         return cls(
-            tuple(Island.settle(network, trails, price, random_state(rng)) for _ in range(ISLANDS)),
-            Pool(network, least=2 * ISLANDS * len(network.limit)),
+            tuple(
+                Island.settle(network, trails, price, random_state(rng), *manner)
+                for manner in manners
+            ),
+            Pool(network, least=2 * len(MANNERS) * len(network.limit)),
         )
 
     @property
@@ -80,20 +88,30 @@ class Archipelago:
         nodes = self.leader.network.nodes
         return Plan.of(nodes[list(trail)] for trail in self.leader.best_trails)
 
+    @property
+    def routes(self) -> list[Route]:
+        """Good routes, those of the best plan of every island among them."""
+        self._pool_best()
+        nodes = self.network.nodes
+        return [tuple(nodes[list(trail)].tolist()) for trail in self.pool.trails]
+
     def run(self, trials: int, part: float, for_each: ForEach) -> None:
         """Make trials on every island, a share `part` of all the work being done."""
-        entered, temperature, is_cold = stage(part)
+        entered, _, is_cold = stage(part)
         if entered > self.round:
             self.round = entered
             self._recombine(for_each)
-        for_each(lambda island: island.run(trials, temperature), self.islands)
+        for_each(lambda island: island.run(trials, stage(part, island.hot)[1]), self.islands)
         if is_cold:
             for island in self.islands:
                 self.pool.add(island.trails)
 
-    def _recombine(self, for_each: ForEach) -> None:
+    def _pool_best(self) -> None:
         for island in self.islands:
             self.pool.add(island.best_trails)
+
+    def _recombine(self, for_each: ForEach) -> None:
+        self._pool_best()
         routes = self.pool.routes()
         explorer = self.islands[-1]
         for_each(

@@ -1,9 +1,11 @@
 """Greedy insertion with blinks: idle nodes, the most promising first, where they cost least.
 
 The order is by profit to a random power, disturbed: an exponent near 0 lets nodes come as
-chance has it, a large one puts rich nodes first. Cost stays out of the order on purpose:
-by profit per second the nodes beside the routes come first and use up the time that a
-region further off would need, and the search never leaves its shape. A place is looked
+chance has it, a large one puts rich nodes first. By profit per second the nodes beside the
+routes come first and use up the time that a region further off would need, and the search
+keeps its shape; where many nodes are worth the same, nothing else tells them apart. So cost
+has a say on some islands only, and there in half of the trials: `greed` is the largest
+power of it by which the weights are divided. A place is looked
 for beside the nearest stops on routes only, and now and then passed over (a "blink") as
 in Christiaens and Vanden Berghe (2020, doi 10.1287/trsc.2019.0914, section 5.2).
 """
@@ -19,8 +21,9 @@ from fiveroute.kernels import kernel
 
 __all__ = ["cheapest_place", "insert_nodes", "sort_descending"]
 
-ALL_IDLE = 150
-"""Up to this number of idle nodes all of them are tried; beyond, those in the region."""
+FEW_NODES, FEW_IDLE = 150, 30
+"""Up to so many nodes in all, or on no route, all idle ones are tried; beyond, those in the
+region."""
 
 REGION = 24
 """Near stops of a removed node among which further nodes to try are looked for."""
@@ -33,6 +36,9 @@ BLINK = 0.01
 
 SKIP = 0.05
 """Probability of passing a node over."""
+
+LEAST_COST = 1e-3
+"""Least cost that counts, as a share of the longest limit shared out among all nodes."""
 
 NOISE = 0.2
 """Largest relative disturbance of the order."""
@@ -52,19 +58,34 @@ def insert_nodes(
     log: Ints,
     seed: int,
     mark: Ints,
+    greed: float,
     state: RandomState,
 ) -> None:
     """Put idle nodes in, in the order of their disturbed weights, as far as time allows."""
     items = np.empty(idle[0], np.int64)
     count = _choose(near, stops, idle, log, seed, mark, items, state)
     keys = np.empty(count)
+    power = greed * (2.0 * uniform(state) - 1.0) if greed > 0.0 else 0.0
+    floor = max(LEAST_COST * limit.max() / len(profit), 1e-12)
+    left = 0
     for rank in range(count):
-        keys[rank] = weight[items[rank]] * (1.0 + NOISE * (2.0 * uniform(state) - 1.0))
+        node = items[rank]
+        key = weight[node] * (1.0 + NOISE * (2.0 * uniform(state) - 1.0))
+        if power > 0.0:
+            at, cost = cheapest_place(
+                leg, back, near, limit, stops, time, node, np.inf, BLINK, state
+            )
+            if at < 0:
+                continue
+            key /= max(cost, floor) ** power
+        items[left], keys[left] = node, key
+        left += 1
+    count = left
     sort_descending(keys, items, count)
     for rank in range(count):
         node = items[rank]
         ceiling = np.inf if profit[node] > 0.0 else 0.0  # no data: only to save time
-        at = cheapest_place(leg, back, near, limit, stops, time, node, ceiling, BLINK, state)
+        at, _ = cheapest_place(leg, back, near, limit, stops, time, node, ceiling, BLINK, state)
         if at >= 0:
             put_in(leg, stops, time, idle, log, node, at)
 
@@ -81,8 +102,8 @@ def cheapest_place(
     ceiling: float,
     blink: float,
     state: RandomState,
-) -> int:
-    """The stop behind which the node costs least, and less than `ceiling`; -1 if none."""
+) -> tuple[int, float]:
+    """The stop behind which the node costs least, less than `ceiling`, and the cost; -1 if none."""
     fleet_size = len(limit)
     size = len(stops) - 2 * fleet_size
     best, place = ceiling, -1
@@ -109,7 +130,7 @@ def cheapest_place(
             places += 1
             if places == PLACES:
                 break
-    return place
+    return place, best
 
 
 @kernel
@@ -142,7 +163,7 @@ def _choose(
 ) -> int:
     """Fill `items` with the idle nodes to try: all, or those around what was removed."""
     count = 0
-    if idle[0] <= ALL_IDLE:
+    if len(near) <= FEW_NODES or idle[0] <= FEW_IDLE:
         for node in idle[1 : idle[0] + 1]:
             if uniform(state) >= SKIP:
                 items[count] = node

@@ -42,6 +42,10 @@ class Island:
         Data that a second is worth.
     state
         Random state of the kernels.
+    hot
+        Temperature at which the island begins, in mean data of a node.
+    greed
+        Largest power of the cost in the order of insertion.
     """
 
     network: Network
@@ -50,10 +54,18 @@ class Island:
     score: Floats
     price: float
     state: RandomState
+    hot: float = 1.0
+    greed: float = 0.0
 
     @classmethod
     def settle(
-        cls, network: Network, trails: Sequence[Trail], price: float, state: RandomState
+        cls,
+        network: Network,
+        trails: Sequence[Trail],
+        price: float,
+        state: RandomState,
+        hot: float = 1.0,
+        greed: float = 0.0,
     ) -> Island:
         """An island whose current and best routes are the given ones."""
         chains = build_chains(network, trails)
@@ -65,6 +77,8 @@ class Island:
             np.array([collected, collected, chains.time.sum()]),
             price,
             state,
+            hot,
+            greed,
         )
 
     @property
@@ -102,6 +116,7 @@ class Island:
             trials,
             temperature * float(net.profit.mean()),
             self.price,
+            self.greed,
             self.state,
         )
 

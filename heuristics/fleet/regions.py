@@ -97,6 +97,11 @@ class Regions:
         self._note_best()
         return Plan.of(self.best)
 
+    @property
+    def routes(self) -> list[Route]:
+        """The best routes; there is no pool."""
+        return list(self.plan.routes)
+
     def run(self, trials: int, part: float, for_each: ForEach) -> None:
         """Make trials on every island, a share `part` of all the work being done."""
         if self.left <= 0 and part >= WHOLE:

@@ -71,9 +71,14 @@ class Pool:
         while len(self._routes) > self._capacity:
             del self._routes[next(iter(self._routes))]
 
-    def routes(self) -> PooledRoutes:
+    @property
+    def trails(self) -> list[Trail]:
         """All routes, in the order in which they were last met."""
-        trails = [trail for _, trail in self._routes.values()]
+        return [trail for _, trail in self._routes.values()]
+
+    def routes(self) -> PooledRoutes:
+        """All routes, side by side."""
+        trails = self.trails
         return PooledRoutes(
             np.cumsum([0, *map(len, trails)]),
             np.fromiter(chain.from_iterable(trails), np.int64),

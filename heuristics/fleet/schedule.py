@@ -11,18 +11,18 @@ FIRST = 0.4
 """Share of the work that the first round takes; the others share the rest equally."""
 
 HOT, REHEATED, COLD = 1.0, 0.4, 0.1
-"""Temperatures at the start of the first and the other rounds, and at the end of each of
-them, in mean data of a node."""
+"""Temperatures at the start of the first round where nothing else is said, at the start of
+the other rounds, and at the end of each of them, in mean data of a node."""
 
 
-def stage(part: float) -> tuple[int, float, bool]:
+def stage(part: float, hot: float = HOT) -> tuple[int, float, bool]:
     """Round, temperature, and whether it is cold, after a share of all the work.
 
-    In a round the temperature falls geometrically; its second half is cold, where the
-    routes are worth remembering.
+    In a round the temperature falls geometrically, in the first one from `hot`; its second
+    half is cold, where the routes are worth remembering.
     """
     if part < FIRST:
-        number, within, hot = 0, part / FIRST, HOT
+        number, within = 0, part / FIRST
     else:
         later = (ROUNDS - 1) * (part - FIRST) / (1.0 - FIRST)
         number = min(int(later), ROUNDS - 2)

@@ -9,7 +9,7 @@ from fiveroute.heuristics.fleet_search import default_trials, fleet_search
 from fiveroute.limits import Limits, Progress
 from fiveroute.models.brute_force import solve as brute_force
 from fiveroute.problem import TeamOrienteering
-from fiveroute.routes import Plan
+from fiveroute.routes import Plan, Route
 
 
 def random_problem(seed: int, most: int = 8) -> TeamOrienteering:
@@ -63,6 +63,18 @@ def test_the_answer_is_never_worse_than_the_plan_to_start_from() -> None:
             problem, rng=np.random.default_rng(seed), warm_start=rough, iterations=50
         )
         assert better.objective(problem) >= rough.objective(problem)
+
+
+def test_the_routes_it_came_across_are_told() -> None:
+    """Different ones, each in time, and with those of the plan among them."""
+    problem = big_problem()
+    routes: list[Route] = []
+    plan = fleet_search(
+        problem, rng=np.random.default_rng(1), iterations=20_000, remember=routes.extend
+    )
+    assert len({frozenset(route) for route in routes}) == len(routes) > problem.fleet_size
+    assert all(problem.duration(route) <= 200.0 for route in routes)
+    assert {frozenset(route) for route in plan.routes} <= {frozenset(route) for route in routes}
 
 
 def test_same_seed_same_plan() -> None:

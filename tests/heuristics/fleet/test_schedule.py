@@ -19,3 +19,8 @@ def test_every_round_cools_down_from_its_own_temperature() -> None:
 @pytest.mark.parametrize(("part", "cold"), [(0.0, False), (0.6 * FIRST, True), (1.0, True)])
 def test_the_second_half_of_a_round_is_cold(part: float, cold: bool) -> None:
     assert stage(part)[2] is cold
+
+
+def test_only_the_first_round_knows_how_hot_to_begin() -> None:
+    assert stage(0.0, 7.0)[1] == 7.0
+    assert stage(FIRST, 7.0)[1] == REHEATED
