@@ -19,9 +19,10 @@ from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
 from fiveroute.limits import Clock
+from fiveroute.models.branch_price.buckets import priced
 from fiveroute.models.branch_price.column_generation import Relaxation
 from fiveroute.models.branch_price.completion import complete
-from fiveroute.models.branch_price.labels import priced, promising
+from fiveroute.models.branch_price.labels import promising
 from fiveroute.models.branch_price.pool import Pool
 from fiveroute.models.branch_price.roads import Roads
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
-from fiveroute.models.branch_price.labels import KEPT, NODE
+from fiveroute.models.branch_price.labels import NODE
 
 __all__ = ["join_at", "labels_at"]
 
@@ -25,12 +25,14 @@ Ints = NDArray[np.int64]
 
 
 @kernel
-def labels_at(value: Floats, time: Floats, links: Ints, count: int, after: float) -> Ints:
+def labels_at(
+    value: Floats, time: Floats, links: Ints, kept: Ints, count: int, after: float
+) -> Ints:
     """Kept labels with a time beyond `after`, grouped by node, the most valuable first."""
     chosen = np.empty(count, np.int64)
     size = 0
     for label in range(count):
-        if links[label, KEPT] and time[label] > after:
+        if kept[label] and time[label] > after:
             chosen[size] = label
             size += 1
     chosen = chosen[:size]

@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
+from fiveroute.models.branch_price.buckets import Buckets, enter, is_replaced, priced, replace
 from fiveroute.models.branch_price.completion import completion_bound
 
 __all__ = [
@@ -31,24 +32,20 @@ __all__ = [
     "COUNT",
     "DONE",
     "FULL",
-    "KEPT",
-    "NEXT",
     "NODE",
     "PARENT",
     "PAUSED",
     "PENDING",
     "extend_labels",
     "members_mask",
-    "priced",
     "promising",
 ]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-NODE, PARENT, NEXT, PENDING, KEPT = 0, 1, 2, 3, 4
-"""Columns of the integer part of a label: node, label before, next in its bucket, next to grow,
-and whether no other label replaces it."""
+NODE, PARENT, PENDING = 0, 1, 2
+"""Columns of the links of a label: node, label before, next to grow."""
 
 COUNT, BUCKET = 0, 1
 """Entries of the state of a search: number of labels, and bucket under way."""
@@ -93,23 +90,24 @@ def extend_labels(
     value: Floats,
     masks: Ints,
     links: Ints,
-    first: Ints,
-    top: Floats,
+    kept: Ints,
+    shelf: Buckets,
     waiting: Ints,
     state: Ints,
     work: int,
 ) -> int:
     """Grow labels in the order of their time; stop after `work` extensions or when full.
 
-    The arrays from `time` on are changed in place. `first` and `top` hold the first label and
-    the highest value of every bucket, shape (size, buckets); `waiting` the first label to grow.
+    The arrays from `time` on are changed in place. `kept` tells whether no other label replaces
+    one, `waiting` the first label to grow of every span of time, shape (buckets,).
     """
-    size, buckets = first.shape
+    size, buckets = shelf.first.shape
     origin = links[0, NODE]
     target = size - 1 - origin
     horizon = limits[-1]
     width = (horizon if horizon > 0.0 else 1.0) / buckets
     eps_time, eps_value = _EPS_TIME * horizon, _EPS_VALUE * scale
+    alone = rest[:, :, :1].copy()  # of walks that may remember anything: small, and near at hand
     done = 0
     while state[BUCKET] < buckets:
         label = waiting[state[BUCKET]]
@@ -118,10 +116,10 @@ def extend_labels(
             continue
         if done > work:
             return PAUSED
-        if state[COUNT] + size > len(time):
+        if state[COUNT] + size > len(time) or shelf.state[0] + size > len(shelf.chain):
             return FULL
         waiting[state[BUCKET]] = links[label, PENDING]
-        if links[label, KEPT] == 0 or time[label] > half:
+        if kept[label] == 0 or time[label] > half:
             continue
         i = links[label, NODE]
         for j in range(1, size):
@@ -137,6 +135,8 @@ def extend_labels(
                 continue
             cuts, paid = _with_cuts(masks[label, 1], in_cut[j], recall[j], sigma)
             v = value[label] + gain[j] - toll * leg[i, j] - paid
+            if not promising(alone, step, limits, floors, t, v - gain[j], j, 0):
+                continue
             mask = 0
             if j != target:
                 mask = members_mask(masks[label, 0], members[i], place[j], j)
@@ -145,34 +145,24 @@ def extend_labels(
                 continue
             bucket = min(int(t / width), buckets - 1)
             if j != target:
-                looks = _looks(
-                    time, value, masks, links, first, top, sigma, exact,
-                    t + eps_time, v - eps_value, mask, cuts, j, bucket,
-                )  # fmt: skip
+                looks = is_replaced(
+                    shelf, sigma, exact, t + eps_time, v - eps_value, mask, cuts, j, bucket
+                )
                 done += abs(looks)
                 if looks < 0:
                     continue
-                done += _replace(
-                    time, value, masks, links, first, top, sigma, exact,
-                    t - eps_time, v + eps_value, mask, cuts, j, bucket,
-                )  # fmt: skip
+                done += replace(
+                    shelf, sigma, exact, t - eps_time, v + eps_value, mask, cuts, j, bucket, kept
+                )
             new = state[COUNT]
             state[COUNT] += 1
             time[new], value[new], masks[new, 0], masks[new, 1] = t, v, mask, cuts
-            _enter(links, first, new, j, label, bucket)
-            top[j, bucket] = max(top[j, bucket], v)
+            links[new, NODE], links[new, PARENT], kept[new] = j, label, 1
             if j != target:
+                enter(shelf, j, bucket, t, v, mask, cuts, new)
                 links[new, PENDING] = waiting[bucket]
                 waiting[bucket] = new
     return DONE
-
-
-@kernel
-def _enter(links: Ints, first: Ints, new: int, node: int, parent: int, bucket: int) -> None:
-    """Put a label into its bucket."""
-    links[new, NODE], links[new, PARENT], links[new, KEPT] = node, parent, 1
-    links[new, NEXT] = first[node, bucket]
-    first[node, bucket] = new
 
 
 @kernel
@@ -181,16 +171,6 @@ def _with_cuts(cuts: int, in_cut: int, recall: int, sigma: Floats) -> tuple[int,
     kept = cuts & recall
     paid = kept & in_cut
     return kept ^ in_cut, priced(paid, sigma) if paid else 0.0
-
-
-@kernel
-def priced(cuts: int, sigma: Floats) -> float:
-    """Sum of the prices of the cuts in a mask."""
-    price = 0.0
-    for c in range(len(sigma)):
-        if cuts >> c & 1:
-            price += sigma[c]
-    return price
 
 
 @kernel
@@ -219,84 +199,3 @@ def promising(
         if v + completion_bound(rest, step, limits[c] - t, j, known) > floors[c]:
             return True
     return False
-
-
-@kernel
-def _looks(
-    time: Floats,
-    value: Floats,
-    masks: Ints,
-    links: Ints,
-    first: Ints,
-    top: Floats,
-    sigma: Floats,
-    exact: bool,
-    t: float,
-    v: float,
-    mask: int,
-    cuts: int,
-    node: int,
-    bucket: int,
-) -> int:
-    """Number of labels looked at, negative if one of them replaces the new one."""
-    looks = 1
-    for b in range(bucket + 1):
-        if top[node, b] < v:
-            continue
-        label = first[node, b]
-        while label >= 0:
-            looks += 1
-            if value[label] >= v and time[label] <= t:
-                if not exact:
-                    return -looks
-                if masks[label, 0] & ~mask == 0:
-                    ahead = masks[label, 1] & ~cuts
-                    if ahead == 0 or value[label] - priced(ahead, sigma) >= v:
-                        return -looks
-            label = links[label, NEXT]
-    return looks
-
-
-@kernel
-def _replace(
-    time: Floats,
-    value: Floats,
-    masks: Ints,
-    links: Ints,
-    first: Ints,
-    top: Floats,
-    sigma: Floats,
-    exact: bool,
-    t: float,
-    v: float,
-    mask: int,
-    cuts: int,
-    node: int,
-    bucket: int,
-) -> int:
-    """Take out of their buckets the labels that a new one replaces; return how many it saw."""
-    looks = 0
-    for b in range(bucket, first.shape[1]):
-        last, label = -1, first[node, b]
-        highest = -np.inf
-        while label >= 0:
-            looks += 1
-            after = links[label, NEXT]
-            worse = value[label] <= v and time[label] >= t
-            if worse and exact:
-                worse = mask & ~masks[label, 0] == 0
-                if worse:
-                    ahead = cuts & ~masks[label, 1]
-                    worse = ahead == 0 or v - priced(ahead, sigma) >= value[label]
-            if worse:
-                links[label, KEPT] = 0
-                if last < 0:
-                    first[node, b] = after
-                else:
-                    links[last, NEXT] = after
-            else:
-                highest = max(highest, value[label])
-                last = label
-            label = after
-        top[node, b] = highest
-    return looks

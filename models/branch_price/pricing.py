@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from fiveroute.limits import Clock
 from fiveroute.models.branch_price import labels as lb
+from fiveroute.models.branch_price.buckets import new_buckets, with_room
 from fiveroute.models.branch_price.completion import Completion, complete, nearest_nodes, over_legs
 from fiveroute.models.branch_price.join import join_at, labels_at
 from fiveroute.models.branch_price.roads import Roads, is_mirrored
@@ -41,6 +42,7 @@ _BUCKETS = 64
 _WORK = 3_000_000  # extensions and comparisons between two looks at the clock
 _FIRST_LABELS = 1 << 14
 _SAFE = 1e-9  # share of the terms of a sum that its rounding errors stay far below
+_IDLE = 1e-9  # price of a cut that is as good as none
 _JOINS = 8  # routes kept for every node at which halves meet
 _WHOLE = 40  # routes kept of those that need no joining
 _BALANCE = 1.3  # ratio of labels of both halves above which the half-way point moves
@@ -82,11 +84,12 @@ class Duals:
     def between(self, other: Duals, share: float) -> Duals:
         """`share` of these and the rest of others with the same cuts."""
         rest = 1.0 - share
+        price = share * self.price + rest * other.price
         return replace(
             self,
             node=share * self.node + rest * other.node,
             floor=share * self.floor + rest * other.floor,
-            price=share * self.price + rest * other.price,
+            price=np.where(price > _IDLE, price, 0.0),
             surplus=share * self.surplus + rest * other.surplus,
         )
 
@@ -283,20 +286,24 @@ class _Labels:
     def __init__(self, origin: int, size: int) -> None:
         self.time, self.value = np.zeros(_FIRST_LABELS), np.zeros(_FIRST_LABELS)
         self.masks = np.zeros((_FIRST_LABELS, 2), dtype=np.int64)
-        self.links = np.full((_FIRST_LABELS, 5), -1, dtype=np.int64)
-        self.first = np.full((size, _BUCKETS), -1, dtype=np.int64)
-        self.top = np.full((size, _BUCKETS), -np.inf)
+        self.links = np.full((_FIRST_LABELS, 3), -1, dtype=np.int64)
+        self.kept = np.zeros(_FIRST_LABELS, dtype=np.int64)
+        self.buckets = new_buckets(size, _BUCKETS)
         self.waiting = np.full(_BUCKETS, -1, dtype=np.int64)
         self.state = np.array([1, 0], dtype=np.int64)
-        self.links[0, lb.NODE], self.links[0, lb.KEPT] = origin, 1
+        self.links[0, lb.NODE], self.kept[0] = origin, 1
         self.waiting[0] = 0
 
     @property
     def count(self) -> int:
         return int(self.state[lb.COUNT])
 
-    def double(self) -> None:
-        for name in ("time", "value", "masks", "links"):
+    def make_room(self) -> None:
+        size = len(self.buckets.first)
+        self.buckets = with_room(self.buckets, size)
+        if self.count + size <= len(self.time):
+            return
+        for name in ("time", "value", "masks", "links", "kept"):
             old = getattr(self, name)
             setattr(self, name, np.concatenate([old, np.zeros_like(old)]))
 
@@ -338,15 +345,15 @@ class _Search:
                 leg, graph.gain, graph.members, graph.place, graph.in_cut, graph.recall,
                 graph.sigma, rest.value, places, rest.step, self.limits,
                 self.floors, graph.toll, half, self.exact, self.scale,
-                side.time, side.value, side.masks, side.links,
-                side.first, side.top, side.waiting, side.state, _WORK,
+                side.time, side.value, side.masks, side.links, side.kept, side.buckets,
+                side.waiting, side.state, _WORK,
             )  # fmt: skip
             if outcome == lb.DONE:
                 return True
             if self.clock.expired or side.count > self.most_labels:
                 return False
             if outcome == lb.FULL:
-                side.double()
+                side.make_room()
 
     def join(
         self, forward: _Labels, backward: _Labels, half: float
@@ -393,8 +400,12 @@ class _Search:
         self, forward: _Labels, backward: _Labels, half: float
     ) -> Iterator[tuple[int, Ints, Ints]]:
         """Nodes with the labels of both halves there."""
-        heads = labels_at(forward.value, forward.time, forward.links, forward.count, half)
-        tails = labels_at(backward.value, backward.time, backward.links, backward.count, -1.0)
+        heads = labels_at(
+            forward.value, forward.time, forward.links, forward.kept, forward.count, half
+        )
+        tails = labels_at(
+            backward.value, backward.time, backward.links, backward.kept, backward.count, -1.0
+        )
         at_head, at_tail = forward.links[heads, lb.NODE], backward.links[tails, lb.NODE]
         for node in range(1, len(self.graph.gain) - 1):
             a = slice(*np.searchsorted(at_head, [node, node + 1]))
