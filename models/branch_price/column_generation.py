@@ -8,7 +8,7 @@ follows when they find nothing, and gives a bound whatever the point is.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,16 +17,20 @@ from numpy.typing import NDArray
 from fiveroute.limits import Clock
 from fiveroute.models.branch_price.inspection import Inspector
 from fiveroute.models.branch_price.master import Master
-from fiveroute.models.branch_price.pricing import Duals, Priced, Pricer
+from fiveroute.models.branch_price.pricing import Cut, Duals, Priced, Pricer
 
-__all__ = ["Relaxation", "generate"]
+__all__ = ["LOOSE", "TIGHT", "Relaxation", "generate"]
 
 Floats = NDArray[np.float64]
 
+LOOSE, TIGHT = 0.15, 0.02
+"""Distances of bound and master objective that count as converged, as shares of the distance from
+the bound to the target."""
+
 _SMOOTHING = 0.3  # weight of the best multipliers so far
 _ROUTES = 150  # routes that one pricing adds
+_MANY = 20  # new routes that make another quick pricing worth while
 _CLOSE = 1e-7  # relative distance of bound and master objective that counts as converged
-_SHARE = 0.02  # or this share of the distance to the target
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,12 +59,23 @@ class Relaxation:
         """The bound that multipliers and a pricing give."""
         return cls(duals.bound(pricer.roads.routes, best, pricer.roads.refund), duals, best)
 
+    def with_cuts(self, cuts: Sequence[Cut]) -> Relaxation | None:
+        """The same bound, new cuts having no price; None if a cut that has one is missing."""
+        price = dict(zip(self.duals.cuts, self.duals.price.tolist(), strict=True))
+        now = np.array([price.pop(cut, 0.0) for cut in cuts])
+        if any(price.values()) or len(set(self.duals.cuts)) < len(self.duals.cuts):
+            return None
+        duals = replace(self.duals, cuts=tuple(cuts), price=now)
+        return replace(self, duals=duals, has_converged=False)
+
 
 def generate(
     master: Master,
     pricer: Pricer | Inspector,
     clock: Clock,
     *,
+    start: Relaxation | None = None,
+    share: float = TIGHT,
     target: Callable[[], float],
     on_bound: Callable[[float], None],
 ) -> Relaxation | None:
@@ -72,6 +87,10 @@ def generate(
         The known routes and where others come from.
     clock
         When to stop.
+    start
+        A bound that holds for these routes as well, with the cuts of the master problem.
+    share
+        How close bound and master objective shall come, see `LOOSE` and `TIGHT`.
     target
         Tells which bound is low enough: what a better plan collects more than.
     on_bound
@@ -82,8 +101,8 @@ def generate(
     Relaxation or None
         The lowest bound; None if not even one was computed.
     """
-    best: Relaxation | None = None
-    smoothing, quick = _SMOOTHING, True
+    best = start
+    smoothing = _SMOOTHING
     while not clock.expired:
         duals = master.solve()
         if duals is None:
@@ -91,42 +110,41 @@ def generate(
         if best is None:
             best = Relaxation.of(pricer, duals, pricer.walk_bound(duals))
             on_bound(best.value)
-        point = best.duals.between(duals, smoothing)
-        if quick:
-            priced = pricer.price(point, clock, exact=False)
-            if priced is not None:
-                relaxation = Relaxation.of(pricer, point, priced.best)
-                if relaxation.value < best.value:
-                    best = relaxation
-                    on_bound(best.value)
-                if _added(master, priced, duals) or clock.expired:
-                    continue
+        point, added = best.duals.between(duals, smoothing), 0
+        if (priced := pricer.price(point, clock, exact=False)) is not None:
+            best = _lower(best, Relaxation.of(pricer, point, priced.best), on_bound)
+            added = _added(master, priced, duals)
+            if added >= _MANY or clock.expired:
+                continue
         priced = pricer.price(point, clock)
         if priced is None:
             break
-        relaxation = Relaxation.of(pricer, point, priced.best)
-        if relaxation.value < best.value:
-            best = relaxation
-            on_bound(best.value)
-        rest = max(_CLOSE * abs(best.value), _SHARE * (best.value - target()))
+        best = _lower(best, Relaxation.of(pricer, point, priced.best), on_bound)
+        rest = max(_CLOSE * abs(best.value), share * (best.value - target()))
         if priced.is_exact and best.value - master.objective <= rest:
             return replace(best, has_converged=True)
         if best.value <= target():
             break
-        if _added(master, priced, duals):
+        if added + _added(master, priced, duals) > 0:
             smoothing = _SMOOTHING
         elif not priced.is_exact or smoothing == 0.0:
             break
         else:
-            smoothing = 0.0 if smoothing < 0.1 else smoothing / 4.0
+            smoothing = 0.0
     return best
 
 
-def _added(master: Master, priced: Priced, duals: Duals) -> bool:
-    """Add routes; whether one of them improves the master problem."""
+def _lower(best: Relaxation, other: Relaxation, on_bound: Callable[[float], None]) -> Relaxation:
+    """The lower of two bounds; `on_bound` is told where it is the other one."""
+    if other.value >= best.value:
+        return best
+    on_bound(other.value)
+    return other
+
+
+def _added(master: Master, priced: Priced, duals: Duals) -> int:
+    """Add routes; how many of them improve the master problem."""
     before = len(master.routes)
     master.add(priced.routes[:_ROUTES])
-    return any(
-        master.reduced_profit(k, duals) > 1e-9 * (1.0 + abs(duals.floor).max())
-        for k in range(before, len(master.routes))
-    )
+    least = 1e-9 * (1.0 + abs(duals.floor).max())
+    return sum(master.reduced_profit(k, duals) > least for k in range(before, len(master.routes)))

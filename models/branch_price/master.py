@@ -117,13 +117,14 @@ class Master:
             return route
         return min(route, route[::-1]) if self.cuts else tuple(sorted(route))
 
-    def ban(self, is_banned: Callable[[Route], bool]) -> None:
-        """Leave routes out from now on."""
-        for k, route in enumerate(self.routes):
-            if self._allowed[k] and is_banned(route):
-                self._allowed[k] = False
-                self._known.discard((self._key(route), self.classes[k]))
-                self._program.highs.changeColBounds(self._first + k, 0.0, 0.0)
+    def ban(self, is_banned: Callable[[Route], bool]) -> list[int]:
+        """Leave routes out from now on; return their places."""
+        banned = [k for k, route in enumerate(self.routes) if self._allowed[k] and is_banned(route)]
+        for k in banned:
+            self._allowed[k] = False
+            self._known.discard((self._key(self.routes[k]), self.classes[k]))
+            self._program.highs.changeColBounds(self._first + k, 0.0, 0.0)
+        return banned
 
     def _columns(self, routes: Sequence[Route], classes: Sequence[int]) -> csc_array:
         n = self.roads.problem.n

@@ -17,7 +17,7 @@ from fiveroute.models.branch_price.branching import (
     doubtful_nodes,
     most_telling,
 )
-from fiveroute.models.branch_price.column_generation import Relaxation, generate
+from fiveroute.models.branch_price.column_generation import LOOSE, TIGHT, Relaxation, generate
 from fiveroute.models.branch_price.cuts import MOST_CUTS, separate
 from fiveroute.models.branch_price.inspection import Inspector
 from fiveroute.models.branch_price.master import Master
@@ -35,7 +35,8 @@ Booleans = NDArray[np.bool_]
 _MOST_NEIGHBOURS = 24
 _CUTS_AT_ONCE = 20
 _CANDIDATES = 4  # nodes, and as many legs, that a division is chosen from
-_LABELS_WITH_CUTS, _MORE_LABELS = 50_000, 5  # that pricing may take with cuts, also relative
+_WORTHWHILE = 0.1  # share of the distance to the target that a round of cuts must close
+_LABELS_WITH_CUTS, _MORE_LABELS = 150_000, 5  # that pricing may take with cuts, also relative
 
 
 class Subproblem:
@@ -70,6 +71,7 @@ class Subproblem:
             self.pricer = Inspector(self.roads, branch.pool.without(branch.forbidden))
         self.master = Master(self.roads, clock, branch.required, target)
         self.relaxation: Relaxation | None = None
+        self._start: Relaxation | None = None
 
     @property
     def pool(self) -> Pool | None:
@@ -95,7 +97,8 @@ class Subproblem:
         return np.inf if self.relaxation is None else self.relaxation.value
 
     def follow(self, parent: Subproblem) -> None:
-        """Take over routes, cuts and the half-way point."""
+        """Take over routes, cuts, multipliers and the half-way point."""
+        self._start = parent._start
         if isinstance(self.pricer, Pricer) and isinstance(parent.pricer, Pricer):
             self.pricer.half = parent.pricer.half
         self.start_from(parent.master.routes, parent.master.cuts)
@@ -111,16 +114,20 @@ class Subproblem:
 
         Returns whether it converged.
         """
+        share = LOOSE if self.pool is None else TIGHT
         while True:
             relaxation = generate(
                 self.master,
                 self.pricer,
                 self.clock,
+                start=self._start and self._start.with_cuts(self.master.cuts),
+                share=share,
                 target=self.target,
                 on_bound=on_bound,
             )
             if relaxation is None:
                 return False
+            self._start = relaxation
             if relaxation.value <= self.bound:
                 self.relaxation = relaxation
             if not relaxation.has_converged or self.bound <= self.target():
@@ -129,9 +136,25 @@ class Subproblem:
             if self.pool is not None:
                 return True
             routes, _ = self.solution()
-            if not grow(self.near, routes, _MOST_NEIGHBOURS):
+            if grow(self.near, routes, _MOST_NEIGHBOURS):
+                self.forget_cycles()
+                share = LOOSE
+            elif share == TIGHT:
                 return True
-            self.master.ban(lambda route: not is_forgetful(self.near, route))
+            else:
+                share = TIGHT
+
+    def forget_cycles(self) -> None:
+        """Replace routes that come back to what they now remember by routes that do not."""
+        assert self.relaxation is not None
+        gap = self.relaxation.value - self.target()
+        banned = self.master.ban(lambda route: not is_forgetful(self.near, route))
+        for k in banned:
+            if self.master.reduced_profit(k, self.relaxation.duals) > -gap:
+                route = self.master.routes[k]
+                self.master.add(
+                    [tuple(dict.fromkeys(route)), tuple(dict.fromkeys(route[::-1]))[::-1]]
+                )
 
     def strike_off(self) -> None:
         """Forbid legs or routes of no better plan; of no effect on the bound of those that are."""
@@ -155,8 +178,8 @@ class Subproblem:
         assert self.relaxation is not None
         if isinstance(self.pricer, Pricer) and not self.master.cuts:
             self.pricer.most_labels = max(_LABELS_WITH_CUTS, _MORE_LABELS * self.pricer.labels)
-        idle = np.flatnonzero(self.relaxation.duals.price <= 1e-9)
-        if len(self.master.cuts) == len(self.relaxation.duals.price):
+        idle = np.flatnonzero(self.relaxation.duals.price <= 0.0)
+        if tuple(self.master.cuts) == self.relaxation.duals.cuts:
             self.master.remove_cuts(idle.tolist())
         routes, shares = self.solution()
         room = _CUTS_AT_ONCE
@@ -168,12 +191,13 @@ class Subproblem:
         if not cuts:
             return False
         self.master.add_cuts(cuts)
-        before = self.bound
+        before, start = self.bound, self._start
         has_converged = self.relax(on_bound)
         if isinstance(self.pricer, Pricer) and not has_converged and self.bound > self.target():
             last = len(self.master.cuts)
             self.master.remove_cuts(range(last - len(cuts), last))
-        return has_converged and self.bound < before - 1e-3 * abs(before) * 0.01
+            self._start = start
+        return has_converged and before - self.bound > _WORTHWHILE * (before - self.target())
 
     def routes_of_better_plans(self) -> list[Route]:
         """Known routes through distinct nodes that are worth enough for a better plan."""
