@@ -172,11 +172,18 @@ class Master:
         matrix = csr_array((values, (rows, columns)), shape=(len(cuts), width))
         self._program.add_rows(matrix, -np.inf, 1.0)
         self.cuts += cuts
+        self._know_anew()
 
     def remove_cuts(self, places: Sequence[int]) -> None:
         """Remove cuts by their places in `cuts`."""
         self._program.delete_rows([self._head + k for k in places])
         self.cuts = [cut for k, cut in enumerate(self.cuts) if k not in set(places)]
+        self._know_anew()
+
+    def _know_anew(self) -> None:
+        """Tell routes apart as the present cuts do: two orders of the same nodes may differ now."""
+        columns = zip(self.routes, self.classes, self._allowed, strict=True)
+        self._known = {(self._key(route), k) for route, k, is_allowed in columns if is_allowed}
 
     def trial(self, banned: Booleans, required: frozenset[int]) -> float | None:
         """Objective over the known routes without some, with some nodes; None when stopped."""
