@@ -101,3 +101,20 @@ def test_a_cut_counts_what_it_remembers(
 ) -> None:
     assert coefficient(route, Cut((1, 2, 3), frozenset(memory))) == expected
     assert coefficient(route[::-1], Cut((1, 2, 3), frozenset(memory))) == expected
+
+
+def test_with_cuts_another_order_of_the_same_nodes_is_another_route() -> None:
+    """A cut that forgets at 4 is paid by 1, 2, 4 and not by 1, 4, 2."""
+    master = Master(roads([4.0, 4.0]), Limits().start())
+    assert master.add([(1, 2, 4), (3,)]) == 2
+    assert master.add([(1, 4, 2)]) == 0
+    cut = Cut((1, 2, 3), frozenset({1, 2, 3}))
+    master.add_cuts([cut])
+    assert master.add([(1, 4, 2)]) == 1
+    assert master.add([(1, 2, 4), (4, 2, 1), (2, 4, 1)]) == 0
+    assert coefficient((1, 2, 4), cut) == 1
+    assert coefficient((1, 4, 2), cut) == 0
+    master.remove_cuts([0])
+    assert master.add([(4, 2, 1)]) == 0
+    assert master.ban(lambda route: 4 in route) == [0, 2]
+    assert master.add([(4, 2, 1)]) == 1
