@@ -1,7 +1,8 @@
 """Exact methods with a head start: a good plan first, then the proof.
 
 The exact methods know nothing of the heuristics, so that proofs do not depend on them. A good plan
-helps all of them, though: what cannot be better than it need not be looked at.
+helps all of them, though: what cannot be better than it need not be looked at. Column generation
+starts from all routes that the search came across.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.models import solve
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result
-from fiveroute.routes import Plan
+from fiveroute.routes import Plan, Route
 
 __all__ = ["solve_from_good_plan"]
 
@@ -47,12 +48,15 @@ def solve_from_good_plan(
         Told of better plans and bounds.
     """
     clock = (limits or Limits()).start()
-    start = _good_plan(problem, clock.rest(), seed) if problem.n > _FEW else None
-    return solve(problem, method, clock.rest(), warm_start=start, progress=progress)
+    routes: list[Route] = []
+    start = _good_plan(problem, clock.rest(), seed, routes) if problem.n > _FEW else None
+    return solve(problem, method, clock.rest(), warm_start=start, routes=routes, progress=progress)
 
 
-def _good_plan(problem: TeamOrienteering, limits: Limits, seed: int) -> Plan | None:
-    """A plan of the fleet search; None where it finds none to start from."""
+def _good_plan(
+    problem: TeamOrienteering, limits: Limits, seed: int, routes: list[Route]
+) -> Plan | None:
+    """A plan of the fleet search, None where it finds none to start from; `routes` takes others."""
     from fiveroute.heuristics.fleet_search import default_trials, fleet_search
     from fiveroute.models.bounds import Effort, quick_bound
 
@@ -63,6 +67,7 @@ def _good_plan(problem: TeamOrienteering, limits: Limits, seed: int) -> Plan | N
             rng=np.random.default_rng(seed),
             iterations=default_trials(problem.n),
             enough=quick_bound(problem, limits, effort=Effort.LEAST).value,
+            remember=routes.extend,
         )
     except ValueError:
         return None

@@ -2,14 +2,14 @@
 
 `METHODS` names them. Each has the signature
 
-    method(problem, limits, *, warm_start=None, progress=None) -> Result
+    method(problem, limits, *, warm_start=None, routes=(), progress=None) -> Result
 
 and is imported when it is first called, so that importing this package costs nothing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib import import_module
 from types import MappingProxyType
@@ -19,16 +19,25 @@ from fiveroute.errors import InputError
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result
-from fiveroute.routes import Plan
+from fiveroute.routes import Plan, Route
 
 __all__ = ["METHODS", "Method", "choose", "solve"]
 
 
 @dataclass(frozen=True, slots=True)
 class Method:
-    """An exact method, known by its module until it is called."""
+    """An exact method, known by its module until it is called.
+
+    Parameters
+    ----------
+    module
+        Where it is.
+    takes_routes
+        Whether it can make use of good routes.
+    """
 
     module: str
+    takes_routes: bool = False
 
     def __call__(
         self,
@@ -36,11 +45,13 @@ class Method:
         limits: Limits | None = None,
         *,
         warm_start: Plan | None = None,
+        routes: Sequence[Route] = (),
         progress: ProgressCallback | None = None,
     ) -> Result:
         """Solve the problem."""
         method = import_module(self.module)
-        result = method.solve(problem, limits, warm_start=warm_start, progress=progress)
+        known = {"routes": routes} if self.takes_routes else {}
+        result = method.solve(problem, limits, warm_start=warm_start, progress=progress, **known)
         return cast(Result, result)
 
     def supports(self, problem: TeamOrienteering) -> bool:
@@ -50,7 +61,7 @@ class Method:
 
 METHODS: Mapping[str, Method] = MappingProxyType(
     {
-        "branch-price": Method("fiveroute.models.branch_price"),
+        "branch-price": Method("fiveroute.models.branch_price", takes_routes=True),
         "brute-force": Method("fiveroute.models.brute_force"),
         "circuit": Method("fiveroute.models.circuit"),
         "compact": Method("fiveroute.models.compact"),
@@ -80,6 +91,7 @@ def solve(
     limits: Limits | None = None,
     *,
     warm_start: Plan | None = None,
+    routes: Sequence[Route] = (),
     progress: ProgressCallback | None = None,
 ) -> Result:
     """Solve a problem with the method of that name, and shorten the routes it found.
@@ -94,6 +106,8 @@ def solve(
         When to stop; None without any limit.
     warm_start
         A plan to start from; one that the judge rejects is left aside.
+    routes
+        Good routes, for methods that can make use of them; late ones are left aside.
     progress
         Told of better plans and bounds.
 
@@ -107,7 +121,7 @@ def solve(
         raise InputError(
             f"no such method; choose auto, {', '.join(METHODS)}", field="method", value=method
         )
-    result = METHODS[name](problem, limits, warm_start=warm_start, progress=progress)
+    result = METHODS[name](problem, limits, warm_start=warm_start, routes=routes, progress=progress)
     if result.plan is None:
         return result
     from fiveroute.models.shorten import shortened

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 import itertools
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -23,7 +24,7 @@ from fiveroute.models.incumbent import Incumbent
 from fiveroute.models.network import Network
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result
-from fiveroute.routes import Plan
+from fiveroute.routes import Plan, Route
 
 __all__ = ["solve", "supports"]
 
@@ -54,6 +55,7 @@ def solve(
     limits: Limits | None = None,
     *,
     warm_start: Plan | None = None,
+    routes: Sequence[Route] = (),
     progress: ProgressCallback | None = None,
 ) -> Result:
     """Solve to optimality, or as far as the limits allow.
@@ -66,6 +68,8 @@ def solve(
         When to stop; None without any limit.
     warm_start
         A plan to start from; one that the judge rejects is left aside.
+    routes
+        Routes to start from besides; late ones are left aside.
     progress
         Told of better plans and bounds.
     """
@@ -85,7 +89,7 @@ def solve(
         return incumbent.result()
     if problem.n > _TOO_LARGE:
         return incumbent.result()
-    tree = _Tree(Roads.of(network), incumbent)
+    tree = _Tree(Roads.of(network), incumbent, routes)
     if tree.search() and incumbent.plan is None:
         return incumbent.infeasible()
     return incumbent.result()
@@ -94,8 +98,8 @@ def solve(
 class _Tree:
     """The search tree: subproblems whose bounds are still above the best plan."""
 
-    def __init__(self, roads: Roads, incumbent: Incumbent) -> None:
-        self.roads, self.incumbent = roads, incumbent
+    def __init__(self, roads: Roads, incumbent: Incumbent, routes: Sequence[Route] = ()) -> None:
+        self.roads, self.incumbent, self.routes = roads, incumbent, routes
         self.clock = incumbent.clock
         self.near = nearest(roads, _NEIGHBOURS)
         self.step = common_divisor(roads.profit) or 0.0
@@ -187,7 +191,8 @@ class _Tree:
         if parent is not None:
             here.follow(parent)
         else:
-            here.start_from(self.incumbent.plan.routes if self.incumbent.plan else [], [])
+            best = self.incumbent.plan.routes if self.incumbent.plan else ()
+            here.start_from([*best, *self.routes], [])
         has_converged = here.relax(self.on_bound)
         if parent is None and has_converged:
             self.plan_over_known_routes(here)
