@@ -24,6 +24,7 @@ __all__ = ["command"]
 @click.option(
     "--tracks",
     type=click.Path(path_type=Path),
+    metavar="FILE",
     multiple=True,
     help="Tracks sailed in the runs of --events, as `simulate --tracks` wrote them; once for "
     "each log.",
