@@ -136,17 +136,19 @@ def _go_on(
     after: NDArray[np.float64],
     gain: NDArray[np.float64],
 ) -> None:
-    """Fill in what it is worth to sail from i to j, for every time left."""
+    """Fill in what it is worth to sail from i to j, for every time left.
+
+    A leg that takes longer than all times left is as late as one that takes just longer.
+    """
     deviation = math.sqrt(view.variance[i, j])
-    least = max(view.legs[i, j] + deviation * _POINTS[0], 0.0)
-    most = max(view.legs[i, j] + deviation * _POINTS[-1], 0.0)
-    first = int(least / view.step)
-    share = np.zeros(int(most / view.step) - first + 2)
+    steps = np.maximum(view.legs[i, j] + deviation * _POINTS, 0.0) / view.step
+    steps = np.minimum(steps, float(len(gain)))
+    first = int(steps[0])
+    share = np.zeros(int(steps[-1]) - first + 2)
     for k in range(len(_POINTS)):
-        steps = max(view.legs[i, j] + deviation * _POINTS[k], 0.0) / view.step
-        whole = int(steps)
-        share[whole - first] += _WEIGHTS[k] * (1.0 - (steps - whole))
-        share[whole - first + 1] += _WEIGHTS[k] * (steps - whole)
+        whole = int(steps[k])
+        share[whole - first] += _WEIGHTS[k] * (1.0 - (steps[k] - whole))
+        share[whole - first + 1] += _WEIGHTS[k] * (steps[k] - whole)
     gain[:] = view.profit[j]
     for k in range(len(share)):
         begin = min(first + k, len(gain))
