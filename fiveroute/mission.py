@@ -37,9 +37,9 @@ Search = Literal["fleet", "paper"]
 Bounding = Literal["none", "quick", "exact"]
 """Where the upper bound comes from; ``exact`` may improve the plan as well."""
 
-_END_OF_GIANT_ROUTE = {"fleet": 0.1, "paper": 0.3}
-_END_OF_ROUTES = {"fleet": 0.3, "paper": 1.0}
-_END_OF_PLAN = {"none": 1.0, "quick": 0.8, "exact": 0.5}
+_END_OF_GIANT_ROUTE = {"fleet": 0.08, "paper": 0.3}
+_END_OF_ROUTES = {"fleet": 0.2, "paper": 1.0}
+_END_OF_PLAN = {"none": 1.0, "quick": 0.85, "exact": 0.5}
 """Shares of a time limit: of the whole for the plan, and of that for its first two steps."""
 
 _MOST_SAMPLED_LEGS = 200_000_000
