@@ -213,8 +213,6 @@ def replace(
                         changed = True
                         kept[memory[block, _LABEL, k]] = 0
                         _take_out(buckets, node, b, block, k)
-                        if first[node, b] != block and chain[block, _COUNT] == 0:
-                            break
                     else:
                         k += 1
             block = after
