@@ -6,7 +6,7 @@ import math
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from fiveroute.errors import InputError
 
@@ -38,14 +38,18 @@ class Limits:
         Relative optimality gap (bound - objective) / objective at which to stop.
     interrupt
         Set from outside (Ctrl-C) to ask for the best answer so far.
+    work
+        Work at which to stop, in labels of column generation, the one method that counts its
+        work. Unlike time it ends a run at the same place on every machine.
     """
 
     time: float = math.inf
     gap: float = 0.0
     interrupt: threading.Event = field(default_factory=threading.Event, compare=False)
+    work: float = math.inf
 
     def __post_init__(self) -> None:
-        for name in ("time", "gap"):
+        for name in ("time", "gap", "work"):
             value = getattr(self, name)
             if not value >= 0.0:
                 raise InputError("a limit must not be negative", field=name, value=value)
@@ -63,17 +67,22 @@ class Limits:
 
     def within(self, time: float) -> Limits:
         """The same description with at most `time` seconds."""
-        return Limits(min(self.time, max(time, 0.0)), self.gap, self.interrupt)
+        return replace(self, time=min(self.time, max(time, 0.0)))
 
 
 class Clock:
     """One run's stop-watch; `expired` is cheap enough to ask in every iteration."""
 
-    __slots__ = ("_start", "limits")
+    __slots__ = ("_start", "limits", "work")
 
     def __init__(self, limits: Limits) -> None:
         self.limits = limits
+        self.work = 0.0
         self._start = time.perf_counter()
+
+    def spend(self, work: float) -> None:
+        """Count work that was done."""
+        self.work += work
 
     @property
     def seconds(self) -> float:
@@ -86,6 +95,11 @@ class Clock:
         return max(self.limits.time - self.seconds, 0.0)
 
     @property
+    def work_left(self) -> float:
+        """Work left; infinite without a limit, never negative."""
+        return max(self.limits.work - self.work, 0.0)
+
+    @property
     def interrupted(self) -> bool:
         """Whether somebody asked for the best answer so far."""
         return self.limits.interrupt.is_set()
@@ -93,8 +107,8 @@ class Clock:
     @property
     def expired(self) -> bool:
         """Whether the run must end now."""
-        return self.interrupted or self.left <= 0.0
+        return self.interrupted or self.left <= 0.0 or self.work_left <= 0.0
 
     def rest(self) -> Limits:
         """What is left, as the description for a sub-step."""
-        return self.limits.within(self.left)
+        return replace(self.limits.within(self.left), work=self.work_left)

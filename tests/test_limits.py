@@ -36,7 +36,18 @@ def test_within_never_extends() -> None:
     assert Limits(time=3.0, gap=0.1).within(2.0).gap == 0.1
 
 
-@pytest.mark.parametrize("bad", [{"time": -1.0}, {"gap": -0.1}, {"time": math.nan}])
+def test_work_is_counted_and_ends_a_run() -> None:
+    clock = Limits(work=10.0).start()
+    clock.spend(4.0)
+    assert not clock.expired
+    assert clock.rest().work == 6.0
+    assert clock.rest().within(1.0).work == 6.0
+    clock.spend(7.0)
+    assert clock.expired
+    assert clock.work_left == 0.0
+
+
+@pytest.mark.parametrize("bad", [{"time": -1.0}, {"gap": -0.1}, {"time": math.nan}, {"work": -1.0}])
 def test_negative_limits_are_refused(bad: dict[str, float]) -> None:
     with pytest.raises(InputError, match="must not be negative"):
         Limits(**bad)  # type: ignore[arg-type]

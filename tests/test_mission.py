@@ -85,6 +85,25 @@ def test_a_quick_bound_bounds() -> None:
     assert collected(planned) <= planned.result.bound <= planned.problem.total_profit
 
 
+def test_a_quick_bound_is_the_same_every_time_and_proves_small_missions() -> None:
+    small = [plan_mission(scenario("uniform", 15, 2, 2), bound="quick") for _ in range(2)]
+    assert small[0].result.status is Status.OPTIMAL
+    large = [plan_mission(scenario("uniform", 40, 3, 3), bound="quick").result for _ in range(2)]
+    assert large[0].bound == large[1].bound
+    assert large[0].plan == large[1].plan
+
+
+def test_a_quick_bound_leaves_the_plan_of_algorithm_1_alone() -> None:
+    instance = scenario("clustered", 15, 4, 3)
+    alone = plan_mission(instance, search="paper").result
+    bounded = plan_mission(instance, search="paper", bound="quick").result
+    assert bounded.plan == alone.plan
+    assert bounded.bound is not None
+    assert bounded.objective is not None
+    assert bounded.objective == alone.objective
+    assert bounded.objective <= bounded.bound
+
+
 def test_a_stated_fleet_size_counts() -> None:
     instance = scenario("uniform", 12, 3, 2)
     one, four = (plan_mission(instance, fleet_size=size) for size in (1, 4))

@@ -39,14 +39,14 @@ _END, _PARENT, _HASH, _CUTS = 0, 1, 2, 3
 
 
 def enumerate_routes(
-    roads: Roads, relaxation: Relaxation, target: float, clock: Clock, most: int
+    roads: Roads, relaxation: Relaxation, target: float, clock: Clock, most: float
 ) -> Pool | None:
     """All routes of plans that collect more than `target`; None beyond `most` partial routes."""
     gap = relaxation.value - target + 1e-9 * max(1.0, abs(relaxation.value))
     table = _Table(roads, relaxation, gap)
-    if not table.grow(clock, most):
-        return None
-    return table.pool()
+    is_whole = table.grow(clock, most)
+    clock.spend(table.count)
+    return table.pool() if is_whole else None
 
 
 class _Table:
@@ -71,7 +71,7 @@ class _Table:
         self.slots = np.full(2 * room, -1, dtype=np.int64)
         self.count = 1
 
-    def grow(self, clock: Clock, most: int) -> bool:
+    def grow(self, clock: Clock, most: float) -> bool:
         """Enumerate; return whether that came to an end."""
         first, last = 0, 1
         while first < last:

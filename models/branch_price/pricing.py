@@ -185,13 +185,15 @@ class Pricer:
         alike = is_mirrored(graph.leg)
         ahead = behind.mirrored() if alike else graph.complete(end, horizon, memory)
         half = (0.5 if alike else self.half) * horizon
-        search = _Search(graph, self.roads.limits, floor, exact, clock, self.most_labels)
+        most_labels = min(self.most_labels, clock.work_left)
+        search = _Search(graph, self.roads.limits, floor, exact, clock, most_labels)
         forward = search.start(0)
         backward = forward if alike else search.start(end)
         done = search.grow(forward, graph.leg, ahead, half)
         if done and not alike:
             done = search.grow(backward, graph.leg.T.copy(), behind, horizon - half)
         self.labels = forward.count + backward.count
+        clock.spend(self.labels + len(self.roads.leg) ** 2)
         if not done:
             return Priced([], walks, False) if exact else None
         self._balance(forward.count, backward.count)
@@ -326,7 +328,7 @@ class _Search:
         floors: Floats,
         exact: bool,
         clock: Clock,
-        most_labels: int,
+        most_labels: float,
     ) -> None:
         self.graph, self.limits, self.floors, self.exact = graph, limits, floors, exact
         self.clock, self.most_labels = clock, most_labels

@@ -239,9 +239,8 @@ class _Tree:
         gap = here.bound - self.target()
         if here.relaxation is None or gap > _SMALLER * self.too_wide:
             return None
-        pool = enumerate_routes(
-            here.roads, here.relaxation, self.target(), self.clock, self.partial
-        )
+        most = min(self.partial, self.clock.work_left)
+        pool = enumerate_routes(here.roads, here.relaxation, self.target(), self.clock, most)
         if pool is None or len(pool) > _MOST_ROUTES:
             self.partial = min(2 * self.partial, _MOST_PARTIAL)
             self.too_wide = gap

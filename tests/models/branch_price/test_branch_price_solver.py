@@ -151,3 +151,17 @@ def test_hundreds_of_nodes_get_a_bound() -> None:
     assert result.status is Status.FEASIBLE
     assert result.bound is not None
     assert result.bound < problem.total_profit
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_limited_work_ends_it_at_the_same_place_with_a_valid_bound(seed: int) -> None:
+    problem = field(14, seed, [22.0, 22.0], skew=0.2)
+    optimum = enumeration.solve(problem).objective
+    assert optimum is not None
+    for work in (1.0, 2_000.0, 20_000.0):
+        one, other = (branch_price.solve(problem, Limits(work=work)) for _ in range(2))
+        assert one.bound is not None
+        assert one.objective is not None
+        assert (one.objective, one.bound) == (other.objective, other.bound)
+        assert one.objective <= optimum + PROOF_TOLERANCE
+        assert one.bound >= optimum - PROOF_TOLERANCE
