@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -79,7 +80,7 @@ def test_a_cluster_that_loses_a_worker_sails_the_same_cells(tmp_path: Path) -> N
 
         def kill_one(progress: Progress) -> None:
             if not seen:
-                next(iter(cluster.workers.values())).process.process.kill()
+                os.kill(next(iter(cluster.workers.values())).pid, signal.SIGKILL)
             seen.append(progress)
 
         there = sail_cells(cells, tmp_path, scheduler=cluster.scheduler_address, progress=kill_one)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
 from pathlib import Path
 from typing import Any
 
@@ -55,7 +57,7 @@ def test_a_cluster_that_loses_a_worker_gives_the_same_numbers() -> None:
 
         def kill_one(progress: Progress) -> None:
             if not seen:
-                next(iter(cluster.workers.values())).process.process.kill()
+                os.kill(next(iter(cluster.workers.values())).pid, signal.SIGKILL)
             seen.append(progress)
 
         result = sail_campaign(campaign(16), scheduler=cluster.scheduler_address, progress=kill_one)
