@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
+from click.core import ParameterSource
 
 from fiveroute.cli import options
 
@@ -365,6 +366,7 @@ def ensemble(
     MEMBERS are CF netCDF files that take the place of the instance's own; without them the members
     are drawn from its vortices.
     """
+    _require_drawn(ctx, members)
     import numpy as np
 
     from fiveroute.decide.ensembles import (
@@ -387,16 +389,29 @@ def ensemble(
         else drawn_members(mission, draw, uncertainty, rng, folder)
     )
 
-    def against_members(voyage: Voyage, **search: Any) -> Sweep:
-        times = [member_times(voyage, ocean) for ocean in oceans]
+    def against_members(voyage: Voyage, *, limits: Limits, **search: Any) -> Sweep:
+        times = []
+        for ocean in oceans:
+            if limits.interrupt.is_set():  # before there is any row to give
+                raise KeyboardInterrupt
+            times.append(member_times(voyage, ocean))
         tested = held_out or max(len(oceans) // 2, 1)
         planned = plan_against_ensemble(
-            voyage, times, tested, alpha=alpha, fleet_size=fleet_size, **search
+            voyage, times, tested, alpha=alpha, fleet_size=fleet_size, limits=limits, **search
         )
         return ensemble_sweep(voyage, planned)
 
     work = _at_sea(against_members, mission, instance, straight_lines=False, seed=seed)
     _answer(ctx, work, time_limit, **how)
+
+
+def _require_drawn(ctx: click.Context, members: tuple[Path, ...]) -> None:
+    """Refuse options of drawn members beside members that files hold."""
+    for name in ("draw", "displacement", "strength"):
+        if members and ctx.get_parameter_source(name) is not ParameterSource.DEFAULT:
+            raise click.UsageError(
+                f"--{name} is for members drawn from vortices; leave it or the files out"
+            )
 
 
 def _at_sea(

@@ -1,5 +1,9 @@
 """``fiveroute decide``: tables, pictures, and lists of numbers."""
 
+import os
+import signal
+import threading
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -60,3 +64,25 @@ def test_two_outputs_need_two_files(call: Any, tiny: Path, tmp_path: Path) -> No
     answer = call("decide", "fleet-size", tiny, "--output", same, "--picture", same)
     assert answer.code == 2
     assert "two outputs" in answer.err
+
+
+@pytest.mark.parametrize("option", ["--draw", "--displacement", "--strength"])
+def test_members_are_drawn_or_read(call: Any, tiny: Path, tmp_path: Path, option: str) -> None:
+    member = tmp_path / "member.nc"
+    member.touch()
+    answer = call("decide", "ensemble", tiny, member, option, 2)
+    assert answer.code == 2
+    assert answer.err.count("\n") == 1
+    assert f"{option} is for members drawn" in answer.err
+
+
+def test_ctrl_c_ends_an_ensemble_before_its_first_row(
+    call: Any, edited: Callable[..., Path]
+) -> None:
+    vortex = {"x": 20.0, "y": 300.0, "circulation": 9.0, "radius": 50.0}
+    mission = edited(ocean={"currents": {"vortices": [vortex]}})
+    threading.Timer(3.0, os.kill, (os.getpid(), signal.SIGINT)).start()
+    answer = call("decide", "ensemble", mission, "--draw", 5000)
+    assert answer.code == 130
+    assert answer.err.endswith("fiveroute: interrupted\n")
+    assert answer.out == ""
