@@ -6,7 +6,7 @@ a module are kept in a folder named after the source of the module and of all it
 and the folders of its former sources are cleared away. What is kept ends in its own digest: a
 kernel that a full disk or a power failure has spoilt is compiled anew, never run.
 `on_compilation` tells a caller when something is compiled, so that the first run can say why it
-takes longer.
+takes longer; the clocks of `fiveroute.limits` stand still meanwhile.
 """
 
 from __future__ import annotations
@@ -23,6 +23,8 @@ from typing import Any, TypeVar, cast
 
 import numba
 from numba.core import caching, event
+
+from fiveroute.limits import WORKING_TIME
 
 __all__ = ["kernel", "on_compilation", "source_digest"]
 
@@ -156,3 +158,16 @@ def on_compilation(announce: Callable[[], None]) -> None:
             pass
 
     event.register("numba:compile", _Once())  # type: ignore[no-untyped-call]
+
+
+class _Halt(event.Listener):
+    """Compilation costs no clock any time; the compiler's lock keeps threads apart."""
+
+    def on_start(self, event: Any) -> None:
+        WORKING_TIME.halt()
+
+    def on_end(self, event: Any) -> None:
+        WORKING_TIME.resume()
+
+
+event.register("numba:compile", _Halt())  # type: ignore[no-untyped-call]

@@ -1,4 +1,8 @@
-"""When to stop: a description that can be used again and again, and the clock it starts."""
+"""When to stop: a description that can be used again and again, and the clock it starts.
+
+Clocks stand still while kernels are compiled, which happens once on a computer: the first answer
+takes no more seconds than the second, and its time limit buys as much.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +14,7 @@ from dataclasses import dataclass, field, replace
 
 from fiveroute.errors import InputError
 
-__all__ = ["Clock", "Limits", "Progress", "ProgressCallback"]
+__all__ = ["WORKING_TIME", "Clock", "Limits", "Progress", "ProgressCallback", "WorkingTime"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +37,7 @@ class Limits:
     Parameters
     ----------
     time
-        Wall-clock time in seconds.
+        Wall-clock time in seconds, without the compilation of kernels.
     gap
         Relative optimality gap (bound - objective) / objective at which to stop.
     interrupt
@@ -70,6 +74,36 @@ class Limits:
         return replace(self, time=min(self.time, max(time, 0.0)))
 
 
+class WorkingTime:
+    """The time that all clocks of this process show; it can be halted, also within a halt."""
+
+    __slots__ = ("_halts", "_lost")
+
+    def __init__(self) -> None:
+        self._halts = 0
+        self._lost: tuple[float, float | None] = (0.0, None)  # s, and since when it halts
+
+    def now(self) -> float:
+        """Seconds since some moment, without those of the halts."""
+        lost, since = self._lost  # at one stroke: other threads ask, too
+        return (time.perf_counter() if since is None else since) - lost
+
+    def halt(self) -> None:
+        """Stand still."""
+        self._halts += 1
+        if self._halts == 1:
+            self._lost = (self._lost[0], time.perf_counter())
+
+    def resume(self) -> None:
+        """Go on, after as many calls as there were of `halt`."""
+        self._halts -= 1
+        if self._halts == 0:
+            self._lost = (time.perf_counter() - self.now(), None)
+
+
+WORKING_TIME = WorkingTime()
+
+
 class Clock:
     """One run's stop-watch; `expired` is cheap enough to ask in every iteration."""
 
@@ -78,7 +112,7 @@ class Clock:
     def __init__(self, limits: Limits) -> None:
         self.limits = limits
         self.work = 0.0
-        self._start = time.perf_counter()
+        self._start = WORKING_TIME.now()
 
     def spend(self, work: float) -> None:
         """Count work that was done."""
@@ -87,7 +121,7 @@ class Clock:
     @property
     def seconds(self) -> float:
         """Seconds since the start."""
-        return time.perf_counter() - self._start
+        return WORKING_TIME.now() - self._start
 
     @property
     def left(self) -> float:

@@ -1,3 +1,4 @@
+import time
 from pathlib import Path
 from typing import Any
 
@@ -6,6 +7,7 @@ import pytest
 
 from fiveroute import kernels
 from fiveroute.kernels import kernel, on_compilation
+from fiveroute.limits import Limits
 
 
 @kernel
@@ -28,6 +30,14 @@ def test_compilation_is_announced_once() -> None:
         compiled: Any = numba.njit(_never_kept_on_disk)
         assert compiled(1.0) == 2.0
     assert told == [True]
+
+
+def test_clocks_stand_still_while_a_kernel_is_compiled() -> None:
+    compiled: Any = numba.njit(_never_kept_on_disk)
+    clock, begun = Limits().start(), time.perf_counter()
+    compiled(1.0)
+    elapsed = time.perf_counter() - begun
+    assert 0.0 < clock.seconds < elapsed
 
 
 def test_kernels_are_kept_in_a_folder_of_their_source() -> None:

@@ -1,9 +1,10 @@
 import math
+import time
 
 import pytest
 
 from fiveroute.errors import InputError
-from fiveroute.limits import Limits
+from fiveroute.limits import Limits, WorkingTime
 
 
 def test_without_limits_a_clock_never_expires() -> None:
@@ -51,3 +52,18 @@ def test_work_is_counted_and_ends_a_run() -> None:
 def test_negative_limits_are_refused(bad: dict[str, float]) -> None:
     with pytest.raises(InputError, match="must not be negative"):
         Limits(**bad)  # type: ignore[arg-type]
+
+
+def test_halts_do_not_count() -> None:
+    working, begun = WorkingTime(), time.perf_counter()
+    before = working.now()
+    for _ in range(2):
+        working.halt()
+        working.halt()
+        still = working.now()
+        working.resume()
+        assert working.now() == still  # the outer halt goes on
+        time.sleep(0.01)
+        working.resume()
+    assert working.now() > still
+    assert working.now() - before <= time.perf_counter() - begun - 0.02
