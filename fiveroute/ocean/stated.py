@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fiveroute.instance import Instance
 from fiveroute.ocean.currents import Current, LambVortices, Superposition, UniformCurrent
+
+if TYPE_CHECKING:
+    from fiveroute.ocean.model_current import ModelCurrent
 
 __all__ = ["stated_current"]
 
@@ -35,10 +40,30 @@ def stated_current(instance: Instance, folder: Path | None = None) -> Superposit
     if currents.uniform is not None:
         parts.append(UniformCurrent(currents.uniform.u, currents.uniform.v))
     if currents.file is not None:
-        from fiveroute.ocean.model_current import read_current
-
         file = (folder or Path()) / currents.file
-        parts.append(
-            read_current(file, origin=instance.origin, depth=currents.depth, begin=currents.begin)
-        )
+        what = instance.origin, currents.depth, currents.begin
+        parts.append(_filed_current(file, _stamp(file), *what))
     return Superposition(tuple(parts))
+
+
+@lru_cache(maxsize=1)
+def _filed_current(
+    file: Path,
+    stamp: tuple[int, ...],
+    origin: tuple[float, float] | None,
+    depth: float,
+    begin: str | None,
+) -> ModelCurrent:
+    """The current of a file; a mission that is planned again and again reads it once."""
+    from fiveroute.ocean.model_current import read_current
+
+    return read_current(file, origin=origin, depth=depth, begin=begin)
+
+
+def _stamp(file: Path) -> tuple[int, ...]:
+    """What changes with the content of a file; nothing for one that cannot be read."""
+    try:
+        found = file.stat()
+    except (OSError, ValueError):
+        return ()
+    return found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns, found.st_ctime_ns
