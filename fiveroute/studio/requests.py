@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from typing import Annotated, Any, TypeVar
 
 import pydantic_core
@@ -16,6 +17,7 @@ from fiveroute.studio.edits import Edit
 from fiveroute.studio.planning import Wish
 from fiveroute.studio.session import Session
 from fiveroute.vehicle_files import Choices
+from fiveroute.vehicle_files.from_plan import TOLERANCE
 
 __all__ = ["READS", "WRITES", "answer"]
 
@@ -27,6 +29,8 @@ _REMEDIES = {
     "pass --depth D in metres": "enter a depth in metres",
     "pass a smaller --depth": "enter a smaller depth",
     "pass --origin LON,LAT": "enter the origin's longitude, latitude",
+    "pass --auv K": "enter one AUV",
+    "pass a larger --tolerance": "enter a larger tolerance",
 }
 
 _Name = Annotated[str, Field(min_length=1, max_length=200)]
@@ -56,7 +60,26 @@ class _Export:
     name: _Name
     depth: NonNegativeFloat | None = None
     origin: tuple[float, float] | None = None
+    auv: Annotated[int, Field(ge=1)] | None = None
+    vehicles: tuple[str, ...] = ()
+    departure: datetime | None = None
+    tolerance: NonNegativeFloat = TOLERANCE
     overwrite: bool = False
+
+    @property
+    def choices(self) -> Choices:
+        """The same for the writers; a departure without a zone is in UTC."""
+        leaves = self.departure
+        if leaves is not None and leaves.tzinfo is None:
+            leaves = leaves.replace(tzinfo=UTC)
+        return Choices(
+            depth=self.depth,
+            origin=self.origin,
+            auv=self.auv,
+            names=self.vehicles,
+            departure=None if leaves is None else leaves.astimezone(UTC),
+            tolerance=self.tolerance,
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,9 +129,8 @@ def _save(session: Session, saving: _Saving) -> dict[str, Any]:
 
 
 def _export(session: Session, export: _Export) -> dict[str, Any]:
-    choices = Choices(depth=export.depth, origin=export.origin)
     try:
-        return session.export(export.format, export.name, choices, export.overwrite)
+        return session.export(export.format, export.name, export.choices, export.overwrite)
     except InputError as error:
         raise _of_the_form(error) from None
 

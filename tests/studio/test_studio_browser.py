@@ -174,6 +174,22 @@ def test_errors_stand_on_the_page(browser: Any, studio: Studio, mission_path: Pa
     page.click("#export")
     visit.expect("#toast").to_contain_text("Exported out: auv-1")
     assert [path.suffix for path in (mission_path.parent / "out").iterdir()] == [".plan"]
+
+    page.select_option("#export-format", "csv")
+    page.click("#export-more")
+    for field, wrong, sentence, right in [
+        ("#export-auv", "2", "is no AUV of the plan", "1"),
+        ("#export-vehicles", "ann, bea", "must be given 1 times", "ann"),
+        ("#export-departure", "noon", "departure: 'noon'", "2016-01-31T12:00"),
+        ("#export-tolerance", "wide", "Tolerance: 'wide' is no number", "0.5"),
+    ]:
+        page.fill(field, wrong)
+        page.click("#export")
+        visit.expect("#toast").to_contain_text(sentence)
+        page.fill(field, right)
+    page.click("#export")
+    visit.expect("#toast").to_contain_text("Exported out.csv: ann.")
+    assert "2016-01-31T12:00:00Z" in (mission_path.parent / "out.csv").read_text(encoding="utf-8")
     visit.close()
 
 

@@ -36,6 +36,7 @@ def test_numbers_are_read_as_they_are_typed() -> None:
         -2000,
     ]
     assert evaluate('["", "9", "9, 8"].map((text) => numbersOf(text, "x"))') == [None, 9, [9, 8]]
+    assert evaluate('[" ", "ann, bea"].map(namesOf)') == [None, ["ann", "bea"]]
     assert evaluate("[null, 0.1 + 0.2, [1, 2.5]].map(shownNumber)") == ["", "0.3", "1, 2.5"]
     wrong = """["1,", "one", "Infinity"].map((text) => {
       try { return numbersOf(text, "Speed"); } catch (error) { return error.message; }

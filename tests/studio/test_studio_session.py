@@ -194,6 +194,35 @@ def test_export_goes_into_the_folder(caller: Any, tmp_path: Path) -> None:
     assert "is no plain file name" in out.doc["error"]
 
 
+def test_export_takes_what_the_command_takes(caller: Any, tmp_path: Path) -> None:
+    caller.edit(do="mission", name="bay", fleet={"size": 2, "speed": 1.0, "endurance": 3200.0})
+    caller.planned()
+    wish = {
+        "format": "csv",
+        "name": "out",
+        "depth": 10.0,
+        "auv": 2,
+        "vehicles": ["ann", "bea"],
+        "departure": "2016-01-31T13:00:00+01:00",
+        "tolerance": 0.0,
+    }
+    assert caller.write("/api/export", wish)["vehicles"] == ["bea"]
+    there = (tmp_path / "out.csv").read_text(encoding="utf-8")
+    assert "2016-01-31T12:00:00Z" in there
+    wish |= {"departure": "2016-01-31T12:00", "overwrite": True}
+    caller.write("/api/export", wish)
+    assert (tmp_path / "out.csv").read_text(encoding="utf-8") == there
+    for wrong, told in (
+        ({"vehicles": ["ann"]}, "vehicle: 1: must be given 2 times"),
+        ({"auv": 3}, "auv: 3: is no AUV of the plan; there are 2"),
+        ({"departure": "noon"}, "departure: 'noon'"),
+        ({"tolerance": -1.0}, "tolerance: -1.0"),
+    ):
+        reply = caller("POST", "/api/export", wish | wrong)
+        assert (reply.status, told in reply.doc["error"]) == (400, True), reply.doc
+        assert "\n" not in reply.doc["error"]
+
+
 def test_unsafe_exports_are_refused(mission_path: Path, until: Until) -> None:
     """Straight lines through an obstacle."""
     document = json.loads(mission_path.read_text(encoding="utf-8"))

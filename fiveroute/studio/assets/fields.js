@@ -19,6 +19,11 @@ function numbersOf(text, name) {
   });
 }
 
+/** Names with commas between them, or nothing. */
+function namesOf(text) {
+  return text.trim() ? text.split(",").map((name) => name.trim()) : null;
+}
+
 function shownNumber(value) {
   if (value === null || value === undefined) return "";
   return Array.isArray(value) ? value.join(", ") : String(Number(value.toPrecision(12)));

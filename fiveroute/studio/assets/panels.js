@@ -263,8 +263,16 @@ class FilesPart {
     this.name = new Field("export-name", "Name", { isText: true });
     this.depth = new Field("export-depth", "Depth", { unit: "m", hint: "that of the fleet" });
     this.origin = new Field("export-origin", "Origin", { unit: "lon, lat", hint: "of the mission" });
+    this.auv = new Field("export-auv", "Only AUV", { hint: "all" });
+    this.vehicles = new Field("export-vehicles", "Names", { isText: true, hint: "auv-1, auv-2, ..." });
+    this.departure = new Field("export-departure", "Departure", {
+      isText: true,
+      unit: "UTC",
+      hint: "2016-01-31T12:00",
+    });
+    this.tolerance = new Field("export-tolerance", "Tolerance", { unit: "m" });
+    this.tolerance.show("1");
     this.savePlan = button("save-both", "Save mission and plan", () => this.save(true), { class: "main" });
-    this.result = element("p", { class: "hint", id: "export-result" });
     this.exportButton = button("export", "Export the plan", () => this.export(), { class: "main" });
     this.box = element(
       "div",
@@ -287,13 +295,21 @@ class FilesPart {
         this.name.line,
         this.depth.line,
         this.origin.line,
+        element(
+          "details",
+          { class: "how" },
+          element("summary", { id: "export-more" }, "One AUV, names, departure, tolerance"),
+          this.auv.line,
+          this.vehicles.line,
+          this.departure.line,
+          this.tolerance.line,
+        ),
         element("div", { class: "row" }, this.exportButton),
         element(
           "p",
           { class: "hint" },
           "A plan that crosses land or obstacles, dives too deep or takes too long is refused.",
         ),
-        this.result,
       ),
     );
   }
@@ -319,10 +335,15 @@ class FilesPart {
   export() {
     return this.studio.attempt(() => {
       const body = { format: this.format.select.value, name: this.name.text.trim() };
-      const depth = this.depth.number;
-      const origin = this.origin.text.trim() ? numbersOf(this.origin.text, "Origin") : null;
-      if (depth !== null) body.depth = depth;
-      if (origin !== null) body.origin = origin;
+      const given = {
+        depth: this.depth.number,
+        origin: numbersOf(this.origin.text, "Origin"),
+        auv: this.auv.number,
+        vehicles: namesOf(this.vehicles.text),
+        departure: this.departure.text.trim() || null,
+        tolerance: this.tolerance.number,
+      };
+      for (const [name, value] of Object.entries(given)) if (value !== null) body[name] = value;
       return this.studio.write(
         "/api/export",
         body,
