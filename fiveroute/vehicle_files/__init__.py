@@ -126,6 +126,7 @@ def write_mission(mission: Mission, format_name: str, output: Path, force: bool 
             f"is no format; {nearest(format_name, VEHICLE_FORMATS)}", value=format_name
         )
     chosen = VEHICLE_FORMATS[format_name]
+    _require_no_other(chosen, output)
     files = chosen.write(mission)
     chosen.check(files)
     is_file = output.suffix.lower() in chosen.suffixes
@@ -139,3 +140,16 @@ def write_mission(mission: Mission, format_name: str, output: Path, force: bool 
         raise InputError(f"cannot hold {len(files)} files; name a folder{remedy}", file=output)
     else:
         write_folder(output, files, chosen.suffixes, force)
+
+
+def _require_no_other(chosen: VehicleFormat, output: Path) -> None:
+    """Refuse a name that says another format than the one that is written."""
+    suffix = output.suffix.lower()
+    if suffix in chosen.suffixes:
+        return
+    for name, other in VEHICLE_FORMATS.items():
+        if suffix in other.suffixes:
+            folder = ", or name a folder" if chosen.holds in ("vehicle", "part") else ""
+            raise InputError(
+                f"is a name for {name}; end it in {chosen.suffixes[0]}{folder}", file=output
+            )

@@ -84,6 +84,7 @@ def write_look(
         The file.
     run
         Number of the run in a picture or film; None shows the plans, or the first run in a film.
+        A page holds all runs.
     force
         Overwrite an existing file.
     """
@@ -91,6 +92,10 @@ def write_look(
     require_writable(path, force)
     suffix = path.suffix.lower()
     if suffix == ".html":
+        if run is not None:
+            raise InputError(
+                "is for a picture or a film; choose the run on the page", field="run", value=run
+            )
         from fiveroute.view.page import page_of
 
         write_text_atomically(path, page_of(scenes), force)

@@ -60,6 +60,14 @@ def test_an_ending_asks_for_one_file(name: str, mission: Mission, tmp_path: Path
             write_mission(alone(mission), name, path)
 
 
+@pytest.mark.parametrize("name", VEHICLE_FORMATS)
+def test_a_name_of_another_format_is_refused(name: str, mission: Mission, tmp_path: Path) -> None:
+    other = ".gpx" if name == "kml" else ".kml"
+    with pytest.raises(InputError, match=f"is a name for {other[1:]}; end it in"):
+        write_mission(mission, name, tmp_path / f"fleet{other}")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_folders_with_other_things_are_left_alone(mission: Mission, tmp_path: Path) -> None:
     folder = tmp_path / "home"
     (folder / "deep").mkdir(parents=True)

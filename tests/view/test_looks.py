@@ -45,3 +45,8 @@ def test_pictures_are_written(
     assert picture.read_bytes().startswith(magic)
     with pytest.raises(InputError, match="run: 5: is no run of the log; known are 0, 1"):
         write_look(load_scenes([plan_path], [log_path]), picture, run=5, force=True)
+
+
+def test_a_page_holds_all_runs(plan_path: Path, log_path: Path, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="run: 1: is for a picture or a film"):
+        write_look(load_scenes([plan_path], [log_path]), tmp_path / "page.html", run=1)
