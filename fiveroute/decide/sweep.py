@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from html import escape
 
 import numpy as np
 
@@ -57,6 +58,18 @@ class Sweep:
         """The first row of the greatest figure in a column; None where all are missing."""
         known = [row for row in self.rows if _number(row[column]) is not None]
         return max(known, key=lambda row: _number(row[column]) or -math.inf, default=None)
+
+    def _repr_html_(self) -> str:
+        """The table, for notebooks; the value to point out is bold."""
+        names = [name.replace("_", " ") for name in (self.rows[0] if self.rows else ())]
+        head = "".join(f"<th>{escape(name)}</th>" for name in names)
+        body = "".join(self._html_row(row) for row in self.rows)
+        title = f"<b>{escape(self.instance)}</b>" + escape(self.because and f": {self.because}")
+        return f"<div>{title}<table><tr>{head}</tr>{body}</table></div>"
+
+    def _html_row(self, row: Row) -> str:
+        tag = "th" if row[self.quantity] == self.marked else "td"
+        return f"<tr>{''.join(f'<{tag}>{_shown(value)}</{tag}>' for value in row.values())}</tr>"
 
 
 def vary(
@@ -110,6 +123,12 @@ def figures(plan: FleetPlan) -> dict[str, Value]:
         "mean_duration": float(np.mean(plan.durations)) if plan.durations else None,
         "unreachable": len(plan.unreachable),
     }
+
+
+def _shown(value: Value) -> str:
+    if value is None:
+        return "-"
+    return escape(f"{value:.4g}" if isinstance(value, float) else str(value))
 
 
 def _number(value: Value) -> float | None:

@@ -38,3 +38,12 @@ def test_an_interruption_leaves_what_is_done() -> None:
 
 def test_missing_figures_are_no_best() -> None:
     assert Sweep("sea", "speed", "", ({"speed": 1.0, "gap": None},)).best("gap") is None
+
+
+def test_a_notebook_shows_the_table() -> None:
+    rows: tuple[Row, ...] = ({"fleet_size": 1, "gap": None}, {"fleet_size": 2, "gap": 0.123456})
+    html = Sweep("<sea>", "fleet_size", "", rows, marked=2, because="the <best>")._repr_html_()
+    assert "<b>&lt;sea&gt;</b>: the &lt;best&gt;<table>" in html
+    assert "<th>fleet size</th><th>gap</th>" in html
+    assert "<tr><td>1</td><td>-</td></tr><tr><th>2</th><th>0.1235</th></tr>" in html
+    assert "<tr></tr>" in Sweep("sea", "speed", "", ())._repr_html_()
