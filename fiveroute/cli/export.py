@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 
 import click
@@ -93,7 +93,7 @@ def command(
         origin=origin,
         auv=auv,
         names=names,
-        departure=None if depart is None else depart.replace(tzinfo=UTC),
+        departure=depart,
         tolerance=tolerance,
     )
     mission = export_plan(read_plan(plan), plan, format_name, output, choices, force)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import Annotated, Any, TypeVar
 
 import pydantic_core
@@ -68,16 +68,13 @@ class _Export:
 
     @property
     def choices(self) -> Choices:
-        """The same for the writers; a departure without a zone is in UTC."""
-        leaves = self.departure
-        if leaves is not None and leaves.tzinfo is None:
-            leaves = leaves.replace(tzinfo=UTC)
+        """The same for the writers."""
         return Choices(
             depth=self.depth,
             origin=self.origin,
             auv=self.auv,
             names=self.vehicles,
-            departure=None if leaves is None else leaves.astimezone(UTC),
+            departure=self.departure,
             tolerance=self.tolerance,
         )
 

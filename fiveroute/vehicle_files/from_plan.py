@@ -14,7 +14,7 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from datetime import datetime
+from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
@@ -49,6 +49,8 @@ Floats = NDArray[np.float64]
 _NAMES = r"(?!(?i:con|prn|aux|nul|com\d|lpt\d)(\.|$))[A-Za-z0-9_][A-Za-z0-9_.-]{0,59}"
 """Names of AUVs become names of files; Windows keeps some for devices."""
 
+_FIRST_YEAR, _LAST_YEAR = 1001, 9000
+
 _CORNERS = 64  # of the polygon around a round obstacle
 
 
@@ -67,7 +69,8 @@ class Choices:
     names
         Names of the AUVs; without any ``auv-1``, ``auv-2`` and so on.
     departure
-        When the fleet leaves, UTC; None takes when the instance's currents begin, if they say.
+        When the fleet leaves, UTC where it says no zone; None takes when the instance's currents
+        begin, if they say.
     tolerance
         See `TOLERANCE`.
     """
@@ -120,7 +123,7 @@ def mission_of(filed: PlanFile, folder: Path, choices: Choices) -> Mission:
         origin=Position(plane.lon, plane.lat),
         speed=instance.fleet.speed,
         depth_rating=instance.fleet.depth_rating,
-        departure=choices.departure or _beginning(instance),
+        departure=_departure(instance, choices.departure),
     )
 
 
@@ -335,6 +338,20 @@ def _chosen(vehicles: tuple[Vehicle, ...], auv: int) -> Vehicle:
             f"is no AUV of the plan; there are {len(vehicles)}", field="--auv", value=auv
         )
     return vehicles[auv - 1]
+
+
+def _departure(instance: Instance, stated: datetime | None) -> datetime | None:
+    """When the fleet leaves, in UTC; a year of four digits, of which more follow."""
+    leaves = stated or _beginning(instance)
+    if leaves is None:
+        return None
+    if not _FIRST_YEAR <= leaves.year <= _LAST_YEAR:
+        raise InputError(
+            f"must lie in the years {_FIRST_YEAR} to {_LAST_YEAR}",
+            field="departure",
+            value=leaves.isoformat(),
+        )
+    return leaves.replace(tzinfo=UTC) if leaves.tzinfo is None else leaves.astimezone(UTC)
 
 
 def _beginning(instance: Instance) -> datetime | None:

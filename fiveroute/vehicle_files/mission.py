@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from datetime import datetime, timedelta
 from typing import Literal
 
+from fiveroute.errors import InputError
+
 __all__ = ["Kind", "Mission", "Position", "SensorNode", "Vehicle", "Waypoint", "Zone"]
 
 Kind = Literal["start", "node", "bend", "destination"]
@@ -153,4 +155,10 @@ class Mission:
         """The time so long after the departure, as 2016-01-31T12:00:00Z; None if it is open."""
         if self.departure is None:
             return None
-        return (self.departure + timedelta(seconds=round(seconds))).strftime("%Y-%m-%dT%H:%M:%SZ")
+        try:
+            then = self.departure + timedelta(seconds=round(seconds))
+        except OverflowError:
+            raise InputError(
+                "seconds after the departure are beyond the calendar; leave it out", value=seconds
+            ) from None
+        return then.strftime("%Y-%m-%dT%H:%M:%SZ")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from datetime import datetime
+from datetime import datetime, timedelta, timezone
 from pathlib import Path
 from typing import Any
 
@@ -189,6 +189,18 @@ def test_strangers_on_a_route_are_refused() -> None:
     refused(filed(routes=(("a", "ghost"),)), "ghost")
 
 
+@pytest.mark.parametrize(
+    "departure",
+    [
+        datetime(999, 1, 1),
+        datetime(9999, 12, 31),
+        datetime(1, 1, 1, tzinfo=timezone(timedelta(hours=14))),
+    ],
+)
+def test_departures_have_a_year_of_four_digits(departure: datetime) -> None:
+    refused(filed(), "departure", departure=departure)
+
+
 def test_zones_and_departure_come_along() -> None:
     coast = Polygon(((5000.0, 0.0), (5000.0, 900.0), (6000.0, 0.0)))
     sea = replace(
@@ -203,4 +215,6 @@ def test_zones_and_departure_come_along() -> None:
     assert lon @ np.roll(lat, -1) - lat @ np.roll(lon, -1) > 0.0
     later = mission(filed(sea), departure=datetime(2027, 1, 1))
     assert later.moment(0.0) == "2027-01-01T00:00:00Z"
+    with pytest.raises(InputError, match="beyond the calendar"):
+        later.moment(1e12)
     assert mission(filed()).moment(0.0) is None
