@@ -11,13 +11,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 
-import numpy as np
-
 from fiveroute.sea.auctioneer import Auctioneer
 from fiveroute.sea.bidder import Bidder
 from fiveroute.sea.channel import Radio
-from fiveroute.sea.course import Course, Outlook
-from fiveroute.sea.events import Kind
+from fiveroute.sea.course import Outlook
 from fiveroute.sea.holdings import Holdings
 from fiveroute.sea.messages import (
     Accept,
@@ -33,9 +30,9 @@ from fiveroute.sea.messages import (
     Void,
     Wish,
 )
-from fiveroute.sea.picking import Offers, offers
+from fiveroute.sea.own_ship import OwnShip
 from fiveroute.sea.recourse import reconsider
-from fiveroute.sea.voyage import Voyage, course_of
+from fiveroute.sea.voyage import Voyage
 from fiveroute.sea.watch import Watch
 
 __all__ = ["BEAT", "Agent"]
@@ -74,38 +71,20 @@ class Agent:
         silence: float,
         tell: Callable[[int, int], None],
     ) -> None:
-        self.number, self.radio, self.view, self.holdings = number, radio, view, holdings
-        self.auctioneer, self.bidder = Auctioneer(self), Bidder(self)
-        self.watch = Watch(self, dict(estates), silence, tell)
-        self._voyage, self._vessel = voyage, voyage.vessels[number]
-        self._reported = 0.0
-        self.later(BEAT, self._beat)
+        self.ship = OwnShip(number, voyage, radio, view, holdings)
+        self.watch = Watch(self.ship, dict(estates), silence, tell, self._offer)
+        self.auctioneer = Auctioneer(self.ship, self.watch.partners)
+        self.bidder = Bidder(self.ship)
+        self.ship.later(BEAT, self._beat)
 
     @property
-    def is_homebound(self) -> bool:
-        """Whether it has set out for the destination, or is there."""
-        return self._vessel.target == self._voyage.problem.destination
-
-    def course(self, t: float) -> Course:
-        """What it has before it."""
-        return course_of(self.view, self._vessel, t, tuple(self.holdings.route))
-
-    def worth(self, t: float, nodes: Collection[int]) -> Offers:
-        """Psi of nodes and where it would insert them; 0 once it sails home."""
-        idle = np.array(list(nodes), dtype=np.int64)
-        if self.is_homebound:
-            return np.zeros(len(idle)), np.zeros(len(idle), np.int64)
-        return offers(self.view, self.course(t), idle)
-
-    def insert_best(self, t: float, node: int) -> None:
-        """Put a node into the route, where it costs least."""
-        _, place = self.worth(t, [node])
-        self.holdings.route.insert(int(place[0]), node)
-        self.note(t, "pick_up", node)
+    def holdings(self) -> Holdings:
+        """The nodes that it has to do with."""
+        return self.ship.holdings
 
     def steer(self, t: float) -> int:
         """The next vertex, now that it is done where it is."""
-        own, vessel = self.holdings, self._vessel
+        ship, own, vessel = self.ship, self.holdings, self.ship.vessel
         vessel.target = vessel.at
         if own.target is not None:
             own.done.add(own.target)
@@ -115,16 +94,16 @@ class Agent:
             self._drop(t, own.route[:1])  # its turn has come before its confirmation
         own.target = own.route.pop(0) if own.route else None
         vessel.left = t
-        vessel.target = self._voyage.problem.destination if own.target is None else own.target
-        self.report(t)
-        self.auctioneer.open(t)
+        vessel.target = ship.voyage.problem.destination if own.target is None else own.target
+        ship.report(t)
+        self._offer(t)
         self.bidder.wish(t)
         return vessel.target
 
     def come_home(self, t: float) -> None:
         """It has reached the destination; what it keeps it goes on offering."""
-        self.report(t)
-        self.auctioneer.open(t)
+        self.ship.report(t)
+        self._offer(t)
 
     def hear(self, t: float, message: Message) -> None:
         """React to a message."""
@@ -155,43 +134,16 @@ class Agent:
             case Reply():
                 self.watch.on_reply(t, message)
 
-    def report(self, t: float) -> None:
-        """Tell everybody what is its own, idle, and done."""
-        own, vessel = self.holdings, self._vessel
-        idle, done = frozenset(own.kept), frozenset(own.done)
-        self._reported = t
-        self.say(
-            t,
-            Report(self.number, None, own.mine, idle, done, self.is_homebound, vessel.is_home),
-        )
-
-    def say(self, t: float, message: Message) -> None:
-        """Send a message, when its turn comes."""
-        self.radio.send(t, message)
-
-    def later(self, t: float, action: Callable[[float], None]) -> None:
-        """Do something at a time, if it still works then."""
-
-        def act(now: float) -> None:
-            if self._vessel.is_alive:
-                action(now)
-
-        self._voyage.plan(t, act)
-
-    def note(self, t: float, kind: Kind, node: int) -> None:
-        """Write into the log of the run."""
-        self._voyage.note(t, self.number, kind, node)
-
     def _replan(self, t: float) -> None:
         """(24) to (27) for itself alone: the best course over the nodes that are its own."""
-        own, course = self.holdings, self.course(t)
-        better, left_over = reconsider(self.view, course, own.kept)
+        own, course = self.holdings, self.ship.course(t)
+        better, left_over = reconsider(self.ship.view, course, own.kept)
         picked = own.kept.intersection(better.route)
         self._drop(t, sorted(set(course.route).intersection(left_over)))
         own.route[:] = better.route
         own.kept -= picked
         for node in sorted(picked):
-            self.note(t, "pick_up", node)
+            self.ship.note(t, "pick_up", node)
 
     def _drop(self, t: float, nodes: Collection[int]) -> None:
         """Take nodes off the route: they are idle now, or go back to who promised them."""
@@ -202,18 +154,23 @@ class Agent:
                 self.bidder.release(t, node)
             else:
                 own.kept.add(node)
-                self.note(t, "discard", node)
+                self.ship.note(t, "discard", node)
+
+    def _offer(self, t: float) -> None:
+        """Offer the idle nodes that it keeps."""
+        self.auctioneer.open(t)
 
     def _beat(self, t: float) -> None:
         """Now and then: a sign of life, reminders, and a look for signs of others."""
-        own, has_business = self.holdings, not self._vessel.is_home
-        has_business |= bool(own.kept or own.ceded) and t < self._voyage.problem.budgets.max()
+        ship, own = self.ship, self.holdings
+        has_business = not ship.vessel.is_home
+        has_business |= bool(own.kept or own.ceded) and t < ship.voyage.problem.budgets.max()
         if not has_business:
             return
-        if t - self._reported >= BEAT:
-            self.report(t)
+        if t - ship.reported >= BEAT:
+            ship.report(t)
         self.auctioneer.remind(t)
         self.watch.look_round(t)
-        if self._vessel.is_home:
-            self.auctioneer.open(t)
-        self.later(t + BEAT, self._beat)
+        if ship.vessel.is_home:
+            self._offer(t)
+        ship.later(t + BEAT, self._beat)

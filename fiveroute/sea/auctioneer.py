@@ -11,18 +11,16 @@ whether the confirmation arrives or not; it repeats it until it hears that it di
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fiveroute.sea.auction import assign_by_auction
 from fiveroute.sea.holdings import Pledge
 from fiveroute.sea.messages import Accept, Award, Bid, Call, Confirm, Decline, Report, Void, Wish
-
-if TYPE_CHECKING:
-    from fiveroute.sea.agent import Agent
+from fiveroute.sea.own_ship import OwnShip
 
 __all__ = ["MOST_ROUNDS", "Auctioneer"]
 
@@ -36,13 +34,16 @@ class Auctioneer:
 
     Parameters
     ----------
-    agent
+    ship
         The keeper.
+    partners
+        Teammates that may take a node at a time in seconds.
     transfers
         Number of awards made so far.
     """
 
-    agent: Agent
+    ship: OwnShip
+    partners: Callable[[float], set[int]]
     transfers: int = 0
     _number: int = 0
     _rounds: int = 0
@@ -51,43 +52,43 @@ class Auctioneer:
 
     def open(self, t: float, rounds: int = MOST_ROUNDS) -> None:
         """Begin an auction of all nodes kept, unless one is going on."""
-        agent, own = self.agent, self.agent.holdings
+        ship, own = self.ship, self.ship.holdings
         if self._nodes or own.awarded or not own.kept or rounds == 0:
             return
         self._rounds, self._number = rounds, self._number + 1
         self._nodes, self._bids = tuple(sorted(own.kept)), {}
-        if agent.watch.partners(t):
-            agent.say(t, Call(agent.number, None, self._number, self._nodes))
-            agent.later(t + agent.radio.patience, partial(self._close, self._number))
+        if self.partners(t):
+            ship.say(t, Call(ship.number, None, self._number, self._nodes))
+            ship.later(t + ship.radio.patience, partial(self._close, self._number))
         else:
             self._close(self._number, t)
 
     def on_wish(self, t: float, message: Wish) -> None:
         """Somebody could take a node."""
-        if message.nodes & self.agent.holdings.kept:
+        if message.nodes & self.ship.holdings.kept:
             self.open(t)
 
     def on_bid(self, t: float, message: Bid) -> None:
         """Somebody bids; when all have, there is nothing to wait for."""
         if message.auction == self._number and len(message.psi) == len(self._nodes):
             self._bids[message.sender] = message.psi
-            if self._bids.keys() >= self.agent.watch.partners(t):
+            if self._bids.keys() >= self.partners(t):
                 self._close(self._number, t)
 
     def on_accept(self, t: float, message: Accept) -> None:
         """A winner has set time aside: the node is its own from now on."""
-        own, node = self.agent.holdings, message.node
+        own, node = self.ship.holdings, message.node
         pledge = Pledge(message.transfer, message.sender)
         if own.awarded.get(node) == pledge:
             own.ceded[node] = own.awarded.pop(node)
         answer = Confirm if own.ceded.get(node) == pledge else Void
-        me = self.agent.number
-        self.agent.say(t, answer(me, message.sender, message.transfer, node))
+        me = self.ship.number
+        self.ship.say(t, answer(me, message.sender, message.transfer, node))
         self._next_round(t)
 
     def on_decline(self, t: float, message: Decline) -> None:
         """A winner does not want the node, and will never visit it: back to the keeper."""
-        own, pledge = self.agent.holdings, Pledge(message.transfer, message.sender)
+        own, pledge = self.ship.holdings, Pledge(message.transfer, message.sender)
         for book in (own.awarded, own.ceded):
             if book.get(message.node) == pledge:
                 del book[message.node]
@@ -96,23 +97,23 @@ class Auctioneer:
 
     def on_report(self, message: Report) -> None:
         """What a new owner says it has need not be confirmed any more."""
-        ceded = self.agent.holdings.ceded
+        ceded = self.ship.holdings.ceded
         for node in (message.mine | message.done) & ceded.keys():
             if ceded[node].other == message.sender:
                 del ceded[node]
 
     def remind(self, t: float) -> None:
         """Repeat confirmations that may have been lost."""
-        for node, pledge in self.agent.holdings.ceded.items():
-            self.agent.say(t, Confirm(self.agent.number, pledge.other, pledge.transfer, node))
+        for node, pledge in self.ship.holdings.ceded.items():
+            self.ship.say(t, Confirm(self.ship.number, pledge.other, pledge.transfer, node))
 
     def _close(self, number: int, t: float) -> None:
         """Hold the auction, take what is its own, and award the rest."""
         if number != self._number or not self._nodes:
             return
-        agent, own = self.agent, self.agent.holdings
-        psi, _ = agent.worth(t, self._nodes)
-        bidders = [agent.number, *self._bids]
+        ship, own = self.ship, self.ship.holdings
+        psi, _ = ship.worth(t, self._nodes)
+        bidders = [ship.number, *self._bids]
         values = np.array([psi, *self._bids.values()])
         values[:, [node not in own.kept for node in self._nodes]] = 0.0
         won = assign_by_auction(values).tolist()
@@ -121,22 +122,22 @@ class Auctioneer:
             if j < 0:
                 continue
             own.kept.remove(nodes[j])
-            if auv == agent.number:
-                agent.insert_best(t, nodes[j])
+            if auv == ship.number:
+                ship.insert_best(t, nodes[j])
             else:
                 self._award(t, nodes[j], auv)
         if max(won) >= 0:
             self._next_round(t)
 
     def _award(self, t: float, node: int, winner: int) -> None:
-        agent = self.agent
+        ship = self.ship
         self.transfers += 1
-        agent.holdings.awarded[node] = Pledge(self.transfers, winner)
-        agent.say(t, Award(agent.number, winner, self.transfers, node))
-        agent.later(t + agent.radio.patience, partial(self._expire, node, self.transfers))
+        ship.holdings.awarded[node] = Pledge(self.transfers, winner)
+        ship.say(t, Award(ship.number, winner, self.transfers, node))
+        ship.later(t + ship.radio.patience, partial(self._expire, node, self.transfers))
 
     def _expire(self, node: int, transfer: int, t: float) -> None:
-        own = self.agent.holdings
+        own = self.ship.holdings
         if node in own.awarded and own.awarded[node].transfer == transfer:
             del own.awarded[node]
             own.kept.add(node)

@@ -16,12 +16,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from fiveroute.sea.messages import Inquiry, Reply, Report
-
-if TYPE_CHECKING:
-    from fiveroute.sea.agent import Agent
+from fiveroute.sea.own_ship import OwnShip
 
 __all__ = ["SILENCE", "Watch"]
 
@@ -35,7 +32,7 @@ class Watch:
 
     Parameters
     ----------
-    agent
+    ship
         The AUV.
     estates
         What every AUV is believed to have: at first, what it sets out with.
@@ -43,12 +40,15 @@ class Watch:
         Seconds after which a silent AUV is suspected; infinite for a fleet that never fails.
     tell
         Called with the silent AUV and a node when one is taken over.
+    offer
+        Called with the time in seconds when all that is taken over is kept.
     """
 
-    agent: Agent
+    ship: OwnShip
     estates: dict[int, frozenset[int]]
     silence: float
     tell: Callable[[int, int], None]
+    offer: Callable[[float], None]
     _heard: dict[int, float] = field(default_factory=dict)
     _homebound: set[int] = field(default_factory=set)
     _home: set[int] = field(default_factory=set)
@@ -75,7 +75,7 @@ class Watch:
             self._homebound.add(message.sender)
         if message.is_home:
             self._home.add(message.sender)
-        own = self.agent.holdings
+        own = self.ship.holdings
         for node in self._inherited & (message.mine | message.done):
             self._inherited.discard(node)
             if node in own.kept:
@@ -85,12 +85,12 @@ class Watch:
 
     def on_inquiry(self, t: float, message: Inquiry) -> None:
         """Say which nodes are its own; if it is itself the silent one, say that it is not."""
-        agent = self.agent
-        if message.silent == agent.number:
-            agent.report(t)
+        ship = self.ship
+        if message.silent == ship.number:
+            ship.report(t)
             return
-        mine = message.nodes & agent.holdings.concerns
-        agent.say(t, Reply(agent.number, message.sender, message.silent, mine))
+        mine = message.nodes & ship.holdings.concerns
+        ship.say(t, Reply(ship.number, message.sender, message.silent, mine))
 
     def on_reply(self, t: float, message: Reply) -> None:
         """One teammate less to wait for."""
@@ -102,31 +102,31 @@ class Watch:
         """Ask for the nodes of those whose heir it is."""
         if math.isinf(self.silence):
             return
-        me = self.agent.number
+        me = self.ship.number
         for auv in self._others:
             if not self.suspects(auv, t) or self._heir(auv, t) != me:
                 continue
             nodes = self._estate(auv)
             if nodes:
                 self._answers.setdefault(auv, {})
-                self.agent.say(t, Inquiry(me, None, auv, nodes))
+                self.ship.say(t, Inquiry(me, None, auv, nodes))
                 self._inherit(auv, t)
 
     @property
     def _others(self) -> list[int]:
-        return [m for m in self.estates if m != self.agent.number]
+        return [m for m in self.estates if m != self.ship.number]
 
     def _estate(self, auv: int) -> frozenset[int]:
         """What a silent AUV has left: what it said it had, and what was ceded to it."""
-        own = self.agent.holdings
+        own = self.ship.holdings
         ceded = {node for node, pledge in own.ceded.items() if pledge.other == auv}
         return (self.estates[auv] | ceded) - own.concerns
 
     def _heir(self, auv: int, t: float) -> int | None:
-        fleet, me = len(self.estates), self.agent.number
+        fleet, me = len(self.estates), self.ship.number
         for step in range(1, fleet):
             m = (auv + step) % fleet
-            is_able = not self.agent.is_homebound if m == me else m in self.partners(t)
+            is_able = not self.ship.is_homebound if m == me else m in self.partners(t)
             if is_able:
                 return m
         return None
@@ -137,7 +137,7 @@ class Watch:
         asked = {m for m in self._others if m != auv and not self.suspects(m, t)}
         if not answers.keys() >= asked:
             return
-        own = self.agent.holdings
+        own = self.ship.holdings
         nodes = self._estate(auv).difference(*answers.values())
         for node in sorted(nodes):
             own.ceded.pop(node, None)
@@ -146,4 +146,4 @@ class Watch:
         self._inherited |= nodes
         self.estates[auv] = frozenset()
         del self._answers[auv]
-        self.agent.auctioneer.open(t)
+        self.offer(t)

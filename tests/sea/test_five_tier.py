@@ -43,9 +43,9 @@ class WatchedVoyage(Voyage):
         if not self.may_fail:
             assert_one_right_a_node(self.crew)
         if kind == "pick_up":
-            agent, vessel = self.crew.agents[auv], self.vessels[auv]
-            is_overdue = t > vessel.left + agent.view.legs[vessel.at, vessel.target]
-            assert is_overdue or in_hand(agent.view, agent.course(t)) >= 0.0
+            ship, vessel = self.crew.agents[auv].ship, self.vessels[auv]
+            is_overdue = t > vessel.left + ship.view.legs[vessel.at, vessel.target]
+            assert is_overdue or in_hand(ship.view, ship.course(t)) >= 0.0
 
 
 def assert_one_right_a_node(crew: FiveTier) -> None:

@@ -148,7 +148,7 @@ def test_who_has_given_up_declines_for_good(fleet: Fleet) -> None:
 
 def test_an_award_beyond_its_time_is_declined(fleet: Fleet) -> None:
     award = fleet.auction()
-    fleet.agents[1]._vessel.budget = 10.0
+    fleet.agents[1].ship.vessel.budget = 10.0
     fleet.agents[1].hear(3.0, award)
     assert fleet.said(1, Accept) == []
     (decline,) = fleet.said(1, Decline)
