@@ -145,12 +145,6 @@ class PlanFile:
             ),
         )
 
-    def _repr_html_(self) -> str:
-        """A small map and a table, for notebooks."""
-        from fiveroute.view.notebook import plan_html
-
-        return plan_html(self)
-
     @property
     def tracks(self) -> list[list[NDArray[np.float64]]] | None:
         """The paths as arrays, shape (k, 2) each."""
