@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
-from fiveroute.formats.files import require_writable, written_whole
+from fiveroute.formats.files import require_writable
 from fiveroute.instance import Instance
+from fiveroute.whole_files import written_whole
 
 if TYPE_CHECKING:
     import xarray as xr

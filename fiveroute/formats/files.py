@@ -1,22 +1,19 @@
 """Text in from a file and out to a file, as every format needs it.
 
 A file is read whole, in UTF-8, up to `MAX_BYTES`; one that is too large, binary or cut off
-is refused before anything is built from it. A file is written whole or not at all: the
-text goes into a temporary file in the same folder, which then takes the place of the old
-one in a single step.
+is refused before anything is built from it. A file is written whole or not at all, by
+`fiveroute.whole_files`.
 """
 
 from __future__ import annotations
 
 import io
 import math
-import os
-import secrets
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 from fiveroute.errors import InputError
+from fiveroute.whole_files import written_whole
 
 __all__ = [
     "MAX_BYTES",
@@ -30,7 +27,6 @@ __all__ = [
     "require_writable",
     "title_of",
     "write_text_atomically",
-    "written_whole",
 ]
 
 MAX_BYTES = 32 * 2**20
@@ -196,21 +192,6 @@ def write_text_atomically(path: Path, text: str, force: bool = False) -> None:
                 draft.write_text(text, encoding="utf-8", newline="\n")
     except (OSError, ValueError) as error:
         raise InputError(_reason(error, "written"), file=path) from None
-
-
-@contextmanager
-def written_whole(path: Path) -> Iterator[Path]:
-    """A draft beside a file, with its suffix, that takes the file's place if all goes well."""
-    draft = path.with_name(f".{path.stem[:80]}.{secrets.token_hex(6)}{path.suffix[:20]}")
-    try:
-        yield draft
-        with draft.open("rb") as stream:
-            os.fsync(stream.fileno())  # the name must not be on the disk before the content is
-        if path.exists():
-            draft.chmod(path.stat().st_mode)
-        draft.replace(path)
-    finally:
-        draft.unlink(missing_ok=True)
 
 
 def _reason(error: Exception, done: str = "read") -> str:

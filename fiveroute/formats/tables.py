@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from fiveroute.errors import InputError
-from fiveroute.formats.files import require_writable, write_text_atomically, written_whole
+from fiveroute.formats.files import require_writable, write_text_atomically
+from fiveroute.whole_files import written_whole
 
 __all__ = ["require_table", "write_rows"]
 

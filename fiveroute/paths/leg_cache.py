@@ -20,9 +20,9 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.formats.files import written_whole
 from fiveroute.paths.leg_table import LegTable
 from fiveroute.paths.legs import Waters
+from fiveroute.whole_files import written_whole
 
 __all__ = ["cache_folder", "keep_table", "kept_table", "table_key"]
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from fiveroute.errors import InputError
-from fiveroute.formats.files import written_whole
+from fiveroute.whole_files import written_whole
 
 __all__ = ["save", "save_figure"]
 

@@ -13,7 +13,8 @@ from collections.abc import Collection
 from pathlib import Path
 
 from fiveroute.errors import InputError
-from fiveroute.formats.files import require_writable, written_whole
+from fiveroute.formats.files import require_writable
+from fiveroute.whole_files import written_whole
 
 __all__ = ["write_archive", "write_folder"]
 
