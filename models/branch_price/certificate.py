@@ -11,7 +11,6 @@ best_c; `fiveroute.models.certificate_check` finds that out with nothing of this
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import dataclass
 from typing import Any
@@ -64,10 +63,6 @@ class Certificate:
             "worth": list(self.worth),
             "bound": self.bound,
         }
-
-    def to_json(self) -> str:
-        """The document as text; numbers are exact."""
-        return json.dumps(self.document(), indent=1, allow_nan=False) + "\n"
 
 
 def certify(problem: TeamOrienteering, limits: Limits | None = None) -> Certificate | None:

@@ -32,7 +32,7 @@ def test_odd_problems_are_confirmed(seed: int, odd: Callable[[int], Any]) -> Non
     if truth.optimum is None:
         return
     assert certificate is not None
-    verdict = check_certificate(truth.problem, json.loads(certificate.to_json()))
+    verdict = check_certificate(truth.problem, json.loads(json.dumps(certificate.document())))
     assert verdict.confirmed
     assert verdict.bound >= truth.optimum
     assert verdict.bound == pytest.approx(certificate.bound, rel=1e-6, abs=1e-6)
