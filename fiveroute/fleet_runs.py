@@ -27,7 +27,7 @@ from fiveroute.routes import Plan
 
 if TYPE_CHECKING:
     from fiveroute.formats.plan_file import PlanFile
-    from fiveroute.sea.simulation import SimulationResult
+    from fiveroute.sea.run_result import SimulationResult
     from fiveroute.sea.theatre import Theatre
 
 __all__ = ["Actuation", "Pier", "prepare", "simulate"]

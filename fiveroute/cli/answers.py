@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from fiveroute.formats.plan_file import PlanFile
     from fiveroute.mission import MissionPlan
     from fiveroute.paths.voyage import Voyage
-    from fiveroute.sea.simulation import SimulationResult
+    from fiveroute.sea.run_result import SimulationResult
     from fiveroute.tiers.pathing import PlannedPath
     from fiveroute.verdict import Verdict
 

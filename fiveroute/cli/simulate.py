@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from fiveroute.instance import Instance
     from fiveroute.limits import Limits, ProgressCallback
     from fiveroute.paths.voyage import Voyage
-    from fiveroute.sea.simulation import SimulationResult
+    from fiveroute.sea.run_result import SimulationResult
     from fiveroute.sea.theatre import Theatre
 
     _Sailed = tuple[Voyage, Theatre, SimulationResult]

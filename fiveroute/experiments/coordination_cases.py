@@ -22,7 +22,8 @@ from fiveroute.sea.departure import departure_plan
 from fiveroute.sea.discarding import discard
 from fiveroute.sea.picking import offers
 from fiveroute.sea.planners.to_the_letter import ToTheLetter
-from fiveroute.sea.simulation import RunResult, simulate_fleet
+from fiveroute.sea.run_result import RunResult
+from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Voyage
 

@@ -10,7 +10,7 @@ from typing import Any
 from fiveroute.formats.tables import write_rows
 from fiveroute.instance import Instance
 from fiveroute.sea.events import Event, arrivals_of
-from fiveroute.sea.simulation import SimulationResult
+from fiveroute.sea.run_result import SimulationResult
 
 __all__ = ["event_lines", "write_table"]
 

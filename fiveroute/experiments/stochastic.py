@@ -27,7 +27,7 @@ from fiveroute.formats.native import instance_hash
 from fiveroute.generate import paper_scenario
 from fiveroute.limits import Limits, Progress, ProgressCallback
 from fiveroute.sea.journal import Journal
-from fiveroute.sea.simulation import RunResult
+from fiveroute.sea.run_result import RunResult
 from fiveroute.sharing import share_out
 
 __all__ = ["COMPETITORS", "FIXED_FLEET", "cells_of", "registered", "sail_cells"]

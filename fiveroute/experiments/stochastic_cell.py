@@ -22,8 +22,9 @@ from fiveroute.kernels import source_digest
 from fiveroute.paths.voyage import Voyage
 from fiveroute.routes import Plan
 from fiveroute.sea.departure import departure_plan
+from fiveroute.sea.run_result import RunResult, SimulationResult
 from fiveroute.sea.sailed_luck import VehicleModel
-from fiveroute.sea.simulation import RunResult, SimulationResult, simulate_fleet
+from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
 from fiveroute.tiers.preplanning import fleet_size_of
 from fiveroute.vehicle.fit import Estimate, Fit

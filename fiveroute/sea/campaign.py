@@ -15,7 +15,8 @@ from typing import Any
 from fiveroute.limits import Limits, Progress, ProgressCallback
 from fiveroute.routes import Plan
 from fiveroute.sea.journal import Journal
-from fiveroute.sea.simulation import RunResult, SimulationResult, simulate_fleet
+from fiveroute.sea.run_result import RunResult, SimulationResult
+from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
 from fiveroute.sharing import share_out
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from fiveroute.sea.events import Event, Frame
-from fiveroute.sea.simulation import RunResult
+from fiveroute.sea.run_result import RunResult
 
 __all__ = ["Journal"]
 

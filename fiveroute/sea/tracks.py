@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from fiveroute.paths.leg_table import LegTable
 from fiveroute.sea.luck import Luck
+from fiveroute.sea.run_result import RunResult
 from fiveroute.sea.sailed_luck import SailedLuck
-from fiveroute.sea.simulation import RunResult
 from fiveroute.sea.theatre import Theatre
 
 __all__ = ["EVERY", "tracks_of"]

@@ -7,7 +7,8 @@ from fiveroute.experiments.coordination_cases import Case, Sailed, busiest_aucti
 from fiveroute.generate import generate
 from fiveroute.routes import Plan
 from fiveroute.sea.events import Event
-from fiveroute.sea.simulation import RunResult, simulate_fleet
+from fiveroute.sea.run_result import RunResult
+from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
 
 

@@ -16,7 +16,8 @@ from fiveroute.instance import Fleet, Instance, Node, Point
 from fiveroute.limits import Limits, Progress
 from fiveroute.routes import Plan
 from fiveroute.sea.campaign import Campaign, sail_campaign
-from fiveroute.sea.simulation import SimulationResult, simulate_fleet
+from fiveroute.sea.run_result import SimulationResult
+from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
 
 

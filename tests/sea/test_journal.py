@@ -15,7 +15,8 @@ from fiveroute.generate import generate
 from fiveroute.routes import Plan
 from fiveroute.sea.campaign import Campaign, sail_campaign
 from fiveroute.sea.journal import Journal
-from fiveroute.sea.simulation import RunResult, simulate_fleet
+from fiveroute.sea.run_result import RunResult
+from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
 
 PROGRAM = """

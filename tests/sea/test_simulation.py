@@ -12,7 +12,8 @@ from fiveroute.instance import Uncertainty
 from fiveroute.limits import Limits
 from fiveroute.routes import Plan
 from fiveroute.sea.luck import Luck
-from fiveroute.sea.simulation import PLANNERS, RunResult, simulate_fleet
+from fiveroute.sea.run_result import RunResult
+from fiveroute.sea.simulation import PLANNERS, simulate_fleet
 from fiveroute.sea.theatre import Theatre
 
 every_planner = pytest.mark.parametrize("planner", sorted(PLANNERS))

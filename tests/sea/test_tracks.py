@@ -10,8 +10,9 @@ import pytest
 from fiveroute.generate import generate
 from fiveroute.paths.voyage import Voyage
 from fiveroute.routes import Plan
+from fiveroute.sea.run_result import RunResult
 from fiveroute.sea.sailed_luck import VehicleModel
-from fiveroute.sea.simulation import RunResult, simulate_fleet
+from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.tracks import EVERY, tracks_of
 
