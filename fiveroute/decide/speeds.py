@@ -117,20 +117,10 @@ def sweep_speeds(
         If a speed or the battery is not positive, or the endurance is unlimited and no battery
         is given.
     """
-    for name, values in (("speeds", speeds), ("battery", [] if battery is None else [battery])):
-        for value in values:
-            if not 0.0 < value < np.inf:
-                raise InputError("must be finite and above 0", field=name, value=value)
+    for speed in speeds:
+        _require_positive("speeds", speed)
     power = power or PowerModel()
-    stated = np.atleast_1d(np.array(instance.fleet.endurance or np.nan, dtype=np.float64))
-    batteries = stated * power.power(instance.fleet.speed) / _JOULE
-    if battery is not None:
-        batteries = np.full_like(batteries, battery)
-    if not np.isfinite(batteries).all():
-        raise InputError(
-            "is unlimited, so that no battery follows from it; state the watt-hours",
-            field="fleet.endurance",
-        )
+    batteries = _batteries(instance, power, battery)
     clock = (limits or Limits()).start()
     size = fleet_size or instance.fleet_size
     if size is None:
@@ -141,10 +131,10 @@ def sweep_speeds(
         size = fleet_size_of(voyage.instance, voyage.travel, rng=rng)
 
     def row(speed: float, limits: Limits) -> Row:
-        endurance = [power.endurance(each, speed) for each in batteries.tolist()]
-        one = isinstance(instance.fleet.endurance, tuple)
+        endurance = [power.endurance(each, speed) for each in batteries]
+        is_each = isinstance(instance.fleet.endurance, tuple)
         fleet = replace(
-            instance.fleet, speed=speed, endurance=tuple(endurance) if one else endurance[0]
+            instance.fleet, speed=speed, endurance=tuple(endurance) if is_each else endurance[0]
         )
         planned = plan(
             replace(instance, fleet=fleet),
@@ -164,3 +154,23 @@ def sweep_speeds(
     sweep = vary(instance.name, "speed", "m/s", speeds, row, clock=clock, progress=progress)
     best = sweep.best("objective")
     return sweep if best is None else sweep.marking(best["speed"], "collects most")
+
+
+def _batteries(instance: Instance, power: PowerModel, stated: float | None) -> list[float]:
+    """Watt-hours: those stated for all, or what every endurance of the instance needs."""
+    endurance = np.atleast_1d(np.array(instance.fleet.endurance or np.nan, dtype=np.float64))
+    if stated is not None:
+        _require_positive("battery", stated)
+        return [stated] * len(endurance)
+    if not np.isfinite(endurance).all():
+        raise InputError(
+            "is unlimited, so that no battery follows from it; state the watt-hours",
+            field="fleet.endurance",
+        )
+    batteries: list[float] = (endurance * power.power(instance.fleet.speed) / _JOULE).tolist()
+    return batteries
+
+
+def _require_positive(field: str, value: float) -> None:
+    if not 0.0 < value < np.inf:
+        raise InputError("must be finite and above 0", field=field, value=value)
