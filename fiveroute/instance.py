@@ -403,21 +403,7 @@ class Instance:
         InputError
             If no fleet size is known, or it contradicts the endurances.
         """
-        stated = self.fleet_size
-        size = stated if fleet_size is None else fleet_size
-        endurance = self.fleet.endurance
-        if size is None or not 1 <= size <= MAX_FLEET:
-            raise InputError(
-                f"the fleet needs a size from 1 to {MAX_FLEET}; set it or pass --fleet-size",
-                field="fleet.size",
-                value=size,
-            )
-        if isinstance(endurance, tuple) and size != stated:
-            raise InputError(
-                f"fleet.endurance names {stated} AUVs; leave the fleet size to it",
-                field="fleet size",
-                value=size,
-            )
+        size, endurance = self._known_size(fleet_size), self.fleet.endurance
         legs, service = self.travel if travel is None else travel, self.service_times
         if endurance is None:
             sailed = legs if travel is None else np.where(np.isinf(legs), 0.0, legs)
@@ -428,6 +414,24 @@ class Instance:
             legs = np.where(np.isinf(travel), 2.0 * max(budgets) + 1.0, travel)
         data = _at_nodes([node.data for node in self.nodes])
         return TeamOrienteering(legs, service, data, budgets)
+
+    def _known_size(self, asked: int | None) -> int:
+        """The fleet size that is asked for, or that of the instance, if either makes sense."""
+        stated = self.fleet_size
+        size = stated if asked is None else asked
+        if size is None or not 1 <= size <= MAX_FLEET:
+            raise InputError(
+                f"the fleet needs a size from 1 to {MAX_FLEET}; set it or pass --fleet-size",
+                field="fleet.size",
+                value=size,
+            )
+        if isinstance(self.fleet.endurance, tuple) and size != stated:
+            raise InputError(
+                f"fleet.endurance names {stated} AUVs; leave the fleet size to it",
+                field="fleet size",
+                value=size,
+            )
+        return size
 
 
 def _at_nodes(values: list[float]) -> NDArray[np.float64]:
