@@ -171,26 +171,22 @@ def _extend(
     for label in range(at, last):
         if done > work or count + size > len(time):
             return label, count
-        i = links[label, 0]
+        i = links[label, _END]
         for j in range(1, size - 1):
             t = time[label] + leg[i, j]
-            word, bit = j // 62, 1 << (j % 62)
+            word, bit = j // _BITS, 1 << (j % _BITS)
             if t > limits[-1] or words[label, word] & bit:
                 continue
             done += 1
-            cuts = links[label, 3] & recall[j]
+            cuts = links[label, _CUTS] & recall[j]
             v = value[label] + gain[j] - toll * leg[i, j]
             paid = cuts & in_cut[j]
             if paid:
                 v -= priced(paid, sigma)
-            known = 0
-            for b in range(nearest.shape[1]):
-                k = nearest[j, b]
-                if k >= 0 and words[label, k // 62] >> (k % 62) & 1:
-                    known |= 1 << b
+            known = _visited(words[label], nearest[j])
             if not promising(rest, step, limits, floors, t, v - gain[j], j, known):
                 continue
-            mixed = links[label, 2] ^ code[j]
+            mixed = links[label, _HASH] ^ code[j]
             slot = _find(words, links, slots, words[label], word, bit, mixed, j, end_code[j])
             new = slots[slot]
             if new < 0:
@@ -198,12 +194,23 @@ def _extend(
                 count += 1
                 words[new] = words[label]
                 words[new, word] |= bit
-                links[new, 0], links[new, 2] = j, mixed
+                links[new, _END], links[new, _HASH] = j, mixed
                 time[new] = np.inf
             if t < time[new]:
                 time[new], value[new] = t, v
-                links[new, 1], links[new, 3] = label, cuts ^ in_cut[j]
+                links[new, _PARENT], links[new, _CUTS] = label, cuts ^ in_cut[j]
     return last, count
+
+
+@kernel
+def _visited(words: Ints, nodes: Ints) -> int:
+    """Which of some nodes a partial route has visited, a bit each; those at -1 left out."""
+    known = 0
+    for b in range(len(nodes)):
+        k = nodes[b]
+        if k >= 0 and words[k // _BITS] >> (k % _BITS) & 1:
+            known |= 1 << b
+    return known
 
 
 @kernel
@@ -222,7 +229,7 @@ def _find(
     slot = (mixed ^ end_code) % len(slots)
     while slots[slot] >= 0:
         known = slots[slot]
-        if links[known, 2] == mixed and links[known, 0] == end:
+        if links[known, _HASH] == mixed and links[known, _END] == end:
             same = True
             for w in range(len(before)):
                 if words[known, w] != (before[w] | bit if w == word else before[w]):
@@ -240,7 +247,7 @@ def _find(
 def _enter_all(links: Ints, end_code: Ints, slots: Ints, count: int) -> None:
     """Fill an empty table with all partial routes, which are different."""
     for label in range(1, count):
-        slot = (links[label, 2] ^ end_code[links[label, 0]]) % len(slots)
+        slot = (links[label, _HASH] ^ end_code[links[label, _END]]) % len(slots)
         while slots[slot] >= 0:
             slot += 1
             if slot == len(slots):
