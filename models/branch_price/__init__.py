@@ -2,9 +2,14 @@
 
     max sum_r rho_r lambda_r,  every node on at most one route, one route for every AUV.
 
-The method, `solve`, in the order of its steps: `roads` (legs and limits), `neighbourhoods`
-(ng-sets), `completion`, `labels`, `join` and `pricing` (which routes pay), `master` (multipliers),
-`column_generation` (the bound), `pool` (the best plan over known routes) and `solver`.
+`solver` tells the steps. Behind them stand
+
+- `roads`, `duals` and `neighbourhoods`: legs and limits, multipliers, what routes remember;
+- `completion`, `buckets`, `labels`, `join` and `pricing`: which routes pay;
+- `master`, `cuts` and `column_generation`: multipliers that bring the bound down;
+- `elementary`, `inspection` and `pool`: all routes of better plans, and the best plan over them;
+- `subproblem` and `branching`: the search tree;
+- `certificate`: what somebody else needs to confirm the bound.
 
 References
 ----------

@@ -1,4 +1,18 @@
-"""Branch and price, step by step."""
+"""Branch and price, step by step.
+
+Of the subproblems that are open, the one with the highest bound is explored first:
+
+1. Column generation brings its bound down. At the root, a plan over the routes known by then
+   follows; and where nearly all data are within reach, a toll on time is tried, which may leave
+   fewer legs.
+2. Where the gap is small, all routes that a better plan may sail are enumerated, and from then on
+   priced by inspection. Once they are few, HiGHS finds the best plan over them, which settles the
+   subproblem.
+3. Otherwise cuts bring the bound down further, and step 2 comes again.
+
+What cuts do not settle is divided in two. A subproblem is settled without any of this if
+its bound leaves no room for a better plan, on the grid of all sums of data where there is one.
+"""
 
 from __future__ import annotations
 
