@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.limits import Clock
+from fiveroute.models.branch_price.duals import Cut, Duals
 from fiveroute.models.branch_price.inspection import Inspector
 from fiveroute.models.branch_price.master import Master
-from fiveroute.models.branch_price.pricing import Cut, Duals, Priced, Pricer
+from fiveroute.models.branch_price.pricing import Priced, Pricer
 
 __all__ = ["LOOSE", "TIGHT", "Relaxation", "generate"]
 

@@ -17,7 +17,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.models.branch_price.pricing import Cut
+from fiveroute.models.branch_price.duals import Cut
 from fiveroute.routes import Route
 
 __all__ = ["MOST_CUTS", "separate"]

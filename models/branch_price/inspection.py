@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from fiveroute.limits import Clock
+from fiveroute.models.branch_price.duals import Duals
 from fiveroute.models.branch_price.pool import Pool
-from fiveroute.models.branch_price.pricing import Duals, Priced
+from fiveroute.models.branch_price.pricing import Priced
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.routes import Route
 

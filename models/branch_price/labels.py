@@ -20,6 +20,8 @@ puts both halves together.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -36,6 +38,7 @@ __all__ = [
     "PARENT",
     "PAUSED",
     "PENDING",
+    "Graph",
     "extend_labels",
     "members_mask",
     "promising",
@@ -56,6 +59,39 @@ DONE, PAUSED, FULL = 0, 1, 2
 _EPS_TIME, _EPS_VALUE = 1e-13, 1e-13  # relative differences that are rounding, not merit
 
 
+class Graph(NamedTuple):
+    """The nodes worth a visit, numbered anew, and all that the kernels know of them.
+
+    Parameters
+    ----------
+    nodes
+        Their numbers in the problem, shape (size,); the start comes first, the destination last.
+    leg
+        Times of the legs with the service at their heads in seconds, shape (size, size).
+    gain
+        rho_i - pi_i, shape (size,).
+    members, place
+        Nodes of every neighbourhood, shape (size, largest), -1 beyond the last; and the place of
+        every node among them, shape (size, size), -1 where it is none.
+    in_cut, recall
+        Cuts that contain a node, and cuts that remember there, in bits, shape (size,).
+    sigma
+        Price of the cut of every bit.
+    toll
+        What a route pays a second of its legs.
+    """
+
+    nodes: Ints
+    leg: Floats
+    gain: Floats
+    members: Ints
+    place: Ints
+    in_cut: Ints
+    recall: Ints
+    sigma: Floats
+    toll: float
+
+
 @kernel
 def members_mask(mask: int, members: Ints, place: Ints, node: int) -> int:
     """What a label that remembers `mask`, places in `members`, remembers at the next node."""
@@ -70,19 +106,12 @@ def members_mask(mask: int, members: Ints, place: Ints, node: int) -> int:
 
 @kernel
 def extend_labels(
-    leg: Floats,
-    gain: Floats,
-    members: Ints,
-    place: Ints,
-    in_cut: Ints,
-    recall: Ints,
-    sigma: Floats,
+    graph: Graph,
     rest: Floats,
     nearest: Ints,
     step: float,
     limits: Floats,
     floors: Floats,
-    toll: float,
     half: float,
     exact: bool,
     scale: float,
@@ -101,6 +130,7 @@ def extend_labels(
     The arrays from `time` on are changed in place. `kept` tells whether no other label replaces
     one, `waiting` the first label to grow of every span of time, shape (buckets,).
     """
+    _, leg, gain, members, place, in_cut, recall, sigma, toll = graph
     size, buckets = shelf.first.shape
     origin = links[0, NODE]
     target = size - 1 - origin

@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array, csr_array
 
 from fiveroute.limits import Clock
-from fiveroute.models.branch_price.pricing import Cut, Duals
+from fiveroute.models.branch_price.duals import Cut, Duals
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.models.highs import Outcome, Program
 from fiveroute.routes import Route

@@ -17,7 +17,7 @@ does for all classes, because a route is in time for every class whose budget is
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,11 +26,12 @@ from fiveroute.limits import Clock
 from fiveroute.models.branch_price import labels as lb
 from fiveroute.models.branch_price.buckets import new_buckets, with_room
 from fiveroute.models.branch_price.completion import Completion, complete, nearest_nodes, over_legs
+from fiveroute.models.branch_price.duals import Duals
 from fiveroute.models.branch_price.join import join_at, labels_at
 from fiveroute.models.branch_price.roads import Roads, is_mirrored
 from fiveroute.routes import Route
 
-__all__ = ["Cut", "Duals", "Priced", "Pricer"]
+__all__ = ["Priced", "Pricer"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -41,95 +42,10 @@ _MEMORY, _QUICK_MEMORY = 5, 2  # nodes that the walks of exact and of quick pric
 _BUCKETS = 64
 _WORK = 3_000_000  # extensions and comparisons between two looks at the clock
 _FIRST_LABELS = 1 << 14
-_SAFE = 1e-9  # share of the terms of a sum that its rounding errors stay far below
-_IDLE = 1e-9  # price of a cut that is as good as none
 _JOINS = 8  # routes kept for every node at which halves meet
 _WHOLE = 40  # routes kept of those that need no joining
 _BALANCE = 1.3  # ratio of labels of both halves above which the half-way point moves
 _SHIFT = 0.03  # share of the horizon by which it moves
-
-
-@dataclass(frozen=True, slots=True)
-class Cut:
-    """A subset-row cut over three nodes, and the nodes at which routes remember it."""
-
-    nodes: tuple[int, int, int]
-    memory: frozenset[int]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Duals:
-    """Multipliers of the master problem.
-
-    Parameters
-    ----------
-    node
-        pi, shape (n + 2,); 0 at both ends.
-    floor
-        nu_c of every class, ascending, shape (C,).
-    cuts
-        Subset-row cuts.
-    price
-        sigma, shape (len(cuts),), not negative.
-    surplus
-        Constant part of the bound, not negative.
-    """
-
-    node: Floats
-    floor: Floats
-    cuts: tuple[Cut, ...] = ()
-    price: Floats = field(default_factory=lambda: np.zeros(0))
-    surplus: float = 0.0
-
-    def between(self, other: Duals, share: float) -> Duals:
-        """`share` of these and the rest of others with the same cuts."""
-        rest = 1.0 - share
-        price = share * self.price + rest * other.price
-        return replace(
-            self,
-            node=share * self.node + rest * other.node,
-            floor=share * self.floor + rest * other.floor,
-            price=np.where(price > _IDLE, price, 0.0),
-            surplus=share * self.surplus + rest * other.surplus,
-        )
-
-    def at_no_floor(self) -> Duals:
-        """The same multipliers, all routes being welcome."""
-        return replace(self, floor=np.full(len(self.floor), -np.inf))
-
-    def cut_masks(self) -> tuple[Ints, Ints, Floats]:
-        """Cuts in bits, those of no price left out.
-
-        Returns
-        -------
-        in_cut, recall : Ints
-            The cuts that contain a vertex, and those that remember at it, shape (n + 2,).
-        sigma : Floats
-            Price of the cut of every bit.
-        """
-        in_cut, recall = (np.zeros(len(self.node), dtype=np.int64) for _ in range(2))
-        valued = np.flatnonzero(self.price > 0.0)
-        for bit, k in enumerate(valued.tolist()):
-            in_cut[list(self.cuts[k].nodes)] |= 1 << bit
-            recall[list(self.cuts[k].memory)] |= 1 << bit
-        return in_cut, recall, self.price[valued]
-
-    def bound(self, routes: Floats, best: Floats, refund: float = 0.0) -> float:
-        """Bound on the data of all plans, rounded up.
-
-        Parameters
-        ----------
-        routes
-            Number of AUVs M_c of every class, shape (C,).
-        best
-            best_c, or bounds on it, shape (C,).
-        refund
-            What all routes together pay in toll at most.
-        """
-        if best.min() == -np.inf:  # some class has no route at all
-            return -np.inf
-        terms = np.concatenate([self.node, self.price, routes * best, [refund, self.surplus]])
-        return float(terms.sum()) + _SAFE * float(np.abs(terms).sum())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -171,11 +87,11 @@ class Pricer:
     def price(self, duals: Duals, clock: Clock, *, exact: bool = True) -> Priced | None:
         """Search for routes; None if the clock or the room for labels ends an inexact search."""
         gain = self.roads.profit - duals.node
-        graph = _Graph.of(self.roads, gain, self.near, duals)
+        graph = _graph_of(self.roads, gain, self.near, duals)
         horizon = float(self.roads.limits[-1])
         memory = _MEMORY if exact else _QUICK_MEMORY
         end = len(graph.gain) - 1
-        behind = graph.complete(0, horizon, memory)
+        behind = _walks(graph, 0, horizon, memory)
         walks = behind.of_routes(self.roads.limits, end)
         floor = np.nextafter(duals.floor, np.inf)
         if (walks <= floor).all():
@@ -183,7 +99,7 @@ class Pricer:
         if clock.expired:
             return Priced([], walks, False)
         alike = is_mirrored(graph.leg)
-        ahead = behind.mirrored() if alike else graph.complete(end, horizon, memory)
+        ahead = behind.mirrored() if alike else _walks(graph, end, horizon, memory)
         half = (0.5 if alike else self.half) * horizon
         most_labels = min(self.most_labels, clock.work_left)
         search = _Search(graph, self.roads.limits, floor, exact, clock, most_labels)
@@ -205,14 +121,14 @@ class Pricer:
 
     def walk_bound(self, duals: Duals) -> Floats:
         """Bounds on best_c from walks alone."""
-        graph = _Graph.of(self.roads, self.roads.profit - duals.node, self.near, duals)
+        graph = _graph_of(self.roads, self.roads.profit - duals.node, self.near, duals)
         horizon = float(self.roads.limits[-1])
-        behind = graph.complete(0, horizon, _MEMORY)
+        behind = _walks(graph, 0, horizon, _MEMORY)
         return behind.of_routes(self.roads.limits, len(graph.gain) - 1)
 
     def remembered_by_walks(self, duals: Duals) -> Booleans:
         """Nodes that the walks behind `best` remember at every vertex, shape (n + 2, n + 2)."""
-        graph = _Graph.of(self.roads, self.roads.profit - duals.node, self.near, duals)
+        graph = _graph_of(self.roads, self.roads.profit - duals.node, self.near, duals)
         nearest = nearest_nodes(graph.leg, _MEMORY)
         near = np.zeros(self.near.shape, dtype=np.bool_)
         rows, bits = np.nonzero(nearest >= 0)
@@ -240,46 +156,33 @@ class Pricer:
             self.half = min(self.half + _SHIFT, 0.8)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Graph:
-    """The nodes worth a visit, numbered anew, and all that the kernels know of them."""
+def _graph_of(roads: Roads, gain: Floats, near: Booleans, duals: Duals) -> lb.Graph:
+    """The nodes worth a visit, numbered anew."""
+    nodes = roads.worth_a_visit(gain)
+    both = np.ix_(nodes, nodes)
+    close = near[both]
+    place = np.where(close, np.cumsum(close, axis=1) - 1, -1)
+    members = np.full((len(nodes), max(int(close.sum(axis=1).max(initial=0)), 1)), -1)
+    rows, heads = np.nonzero(close)
+    members[rows, place[rows, heads]] = heads
+    in_cut, recall, sigma = duals.cut_masks()
+    return lb.Graph(
+        nodes,
+        np.ascontiguousarray(roads.leg[both]),
+        gain[nodes],
+        members.astype(np.int64),
+        place.astype(np.int64),
+        in_cut[nodes],
+        recall[nodes],
+        sigma,
+        roads.toll,
+    )
 
-    nodes: Ints
-    leg: Floats
-    gain: Floats
-    members: Ints
-    place: Ints
-    in_cut: Ints
-    recall: Ints
-    sigma: Floats
-    toll: float
 
-    @classmethod
-    def of(cls, roads: Roads, gain: Floats, near: Booleans, duals: Duals) -> _Graph:
-        nodes = roads.worth_a_visit(gain)
-        both = np.ix_(nodes, nodes)
-        close = near[both]
-        place = np.where(close, np.cumsum(close, axis=1) - 1, -1)
-        members = np.full((len(nodes), max(int(close.sum(axis=1).max(initial=0)), 1)), -1)
-        rows, heads = np.nonzero(close)
-        members[rows, place[rows, heads]] = heads
-        in_cut, recall, sigma = duals.cut_masks()
-        return cls(
-            nodes,
-            np.ascontiguousarray(roads.leg[both]),
-            gain[nodes],
-            members.astype(np.int64),
-            place.astype(np.int64),
-            in_cut[nodes],
-            recall[nodes],
-            sigma,
-            roads.toll,
-        )
-
-    def complete(self, origin: int, horizon: float, memory: int) -> Completion:
-        """All walks from one of the ends."""
-        leg = self.leg if origin == 0 else self.leg.T
-        return complete(leg, self.gain, origin, horizon, _STEPS, memory, self.toll)
+def _walks(graph: lb.Graph, origin: int, horizon: float, memory: int) -> Completion:
+    """All walks from one of the ends."""
+    leg = graph.leg if origin == 0 else graph.leg.T
+    return complete(leg, graph.gain, origin, horizon, _STEPS, memory, graph.toll)
 
 
 class _Labels:
@@ -323,7 +226,7 @@ class _Search:
 
     def __init__(
         self,
-        graph: _Graph,
+        graph: lb.Graph,
         limits: Floats,
         floors: Floats,
         exact: bool,
@@ -339,16 +242,14 @@ class _Search:
 
     def grow(self, side: _Labels, leg: Floats, rest: Completion, half: float) -> bool:
         """Grow all labels up to `half`; return whether that came to an end."""
-        graph = self.graph
+        graph = self.graph._replace(leg=leg)
         places = np.take_along_axis(graph.place, np.maximum(rest.nearest, 0), axis=1)
         places = np.where(rest.nearest >= 0, places, -1)
         while True:
             outcome = lb.extend_labels(
-                leg, graph.gain, graph.members, graph.place, graph.in_cut, graph.recall,
-                graph.sigma, rest.value, places, rest.step, self.limits,
-                self.floors, graph.toll, half, self.exact, self.scale,
-                side.time, side.value, side.masks, side.links, side.kept, side.buckets,
-                side.waiting, side.state, _WORK,
+                graph, rest.value, places, rest.step, self.limits, self.floors, half, self.exact,
+                self.scale, side.time, side.value, side.masks, side.links, side.kept,
+                side.buckets, side.waiting, side.state, _WORK,
             )  # fmt: skip
             if outcome == lb.DONE:
                 return True

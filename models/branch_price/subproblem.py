@@ -19,11 +19,12 @@ from fiveroute.models.branch_price.branching import (
 )
 from fiveroute.models.branch_price.column_generation import LOOSE, TIGHT, Relaxation, generate
 from fiveroute.models.branch_price.cuts import MOST_CUTS, separate
+from fiveroute.models.branch_price.duals import Cut
 from fiveroute.models.branch_price.inspection import Inspector
 from fiveroute.models.branch_price.master import Master
 from fiveroute.models.branch_price.neighbourhoods import grow, is_forgetful
 from fiveroute.models.branch_price.pool import Pool, stops_of, taking
-from fiveroute.models.branch_price.pricing import Cut, Pricer
+from fiveroute.models.branch_price.pricing import Pricer
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.routes import Route
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from fiveroute.limits import Limits
+from fiveroute.models.branch_price.duals import Cut, Duals
 from fiveroute.models.branch_price.master import Master, coefficient
-from fiveroute.models.branch_price.pricing import Cut, Duals
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.models.network import Network
 from fiveroute.problem import TeamOrienteering

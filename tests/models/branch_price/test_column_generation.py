@@ -7,9 +7,10 @@ import pytest
 
 from fiveroute.limits import Limits
 from fiveroute.models.branch_price.column_generation import Relaxation, generate
+from fiveroute.models.branch_price.duals import Cut, Duals
 from fiveroute.models.branch_price.master import Master
 from fiveroute.models.branch_price.neighbourhoods import nearest
-from fiveroute.models.branch_price.pricing import Cut, Duals, Pricer
+from fiveroute.models.branch_price.pricing import Pricer
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.models.network import Network
 from fiveroute.problem import TeamOrienteering

@@ -9,8 +9,8 @@ import pytest
 
 from fiveroute.limits import Limits
 from fiveroute.models.branch_price.column_generation import Relaxation
+from fiveroute.models.branch_price.duals import Duals
 from fiveroute.models.branch_price.elementary import enumerate_routes
-from fiveroute.models.branch_price.pricing import Duals
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.models.network import Network
 from fiveroute.problem import TeamOrienteering

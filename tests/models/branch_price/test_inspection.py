@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from fiveroute.limits import Limits
+from fiveroute.models.branch_price.duals import Cut, Duals
 from fiveroute.models.branch_price.inspection import Inspector
 from fiveroute.models.branch_price.master import coefficient
 from fiveroute.models.branch_price.pool import Pool
-from fiveroute.models.branch_price.pricing import Cut, Duals
 from fiveroute.models.branch_price.roads import Roads
 from fiveroute.models.network import Network
 from fiveroute.problem import TeamOrienteering

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from fiveroute.limits import Limits
+from fiveroute.models.branch_price.duals import Cut, Duals
 from fiveroute.models.branch_price.master import coefficient
 from fiveroute.models.branch_price.neighbourhoods import is_forgetful, nearest
-from fiveroute.models.branch_price.pricing import Cut, Duals, Pricer
+from fiveroute.models.branch_price.pricing import Pricer
 from fiveroute.models.branch_price.roads import Roads, is_mirrored
 from fiveroute.models.network import Network
 from fiveroute.problem import TeamOrienteering
