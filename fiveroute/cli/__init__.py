@@ -11,6 +11,7 @@ from importlib import import_module
 import click
 
 import fiveroute
+from fiveroute.cli.notes import note
 from fiveroute.errors import FiverouteError, nearest
 
 __all__ = ["main"]
@@ -107,5 +108,5 @@ def _hush() -> None:
 
 
 def _complain(sentence: str, code: int) -> int:
-    click.echo(f"fiveroute: {sentence}", err=True)
+    note(sentence)
     return code

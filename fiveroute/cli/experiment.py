@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from fiveroute.cli import options
+from fiveroute.cli.notes import note
 
 __all__ = ["command"]
 
@@ -142,7 +143,7 @@ def stochastic(
 
     outcome = run(work, Limits())
     if outcome.interrupted:
-        click.echo("fiveroute: interrupted; the same call with --output goes on", err=True)
+        note("interrupted; the same call with --output goes on")
         ctx.exit(130)
     if output is not None:
         write_report(outcome.value, output, force)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from fiveroute.cli import options
+from fiveroute.cli.notes import note
 from fiveroute.cli.solve import METHODS
 
 if TYPE_CHECKING:
@@ -116,8 +117,8 @@ def command(
     require_peers(asked, how["time_limit"])
     known = read_reference(reference) if reference else {}
     entries, notes = read_entries(instances)
-    for note in notes:
-        _say(note)
+    for sentence in notes:
+        note(sentence)
     settings = GapSettings(side=_SIDES[only], peers=asked, **how)
 
     def work(limits: Limits, progress: ProgressCallback | None) -> list[GapRow]:
@@ -162,13 +163,9 @@ def _warn(rows: Sequence[GapRow], summary: GapSummary) -> None:
     """Say what the table does not: nodes that are left out, values that cannot be right."""
     for row in rows:
         if row.unreachable:
-            _say(f"{row.instance}: {row.unreachable} nodes cannot be reached and are not visited")
+            note(f"{row.instance}: {row.unreachable} nodes cannot be reached and are not visited")
     for name in summary.contradictions:
-        _say(f"{name}: the best known value is above the proven bound; one of them is wrong")
-
-
-def _say(sentence: str) -> None:
-    click.echo(f"fiveroute: {sentence}", err=True)
+        note(f"{name}: the best known value is above the proven bound; one of them is wrong")
 
 
 def _write(rows: Sequence[GapRow], output: Path | None, picture: Path | None, force: bool) -> None:

@@ -15,8 +15,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Generic, TypeVar
 
-import click
-
+from fiveroute.cli.notes import note
 from fiveroute.limits import Limits, Progress, ProgressCallback
 from fiveroute.result import optimality_gap
 
@@ -50,10 +49,7 @@ def announce_compilation() -> None:
     from fiveroute.kernels import on_compilation
 
     on_compilation(
-        lambda: click.echo(
-            "fiveroute: compiling its kernels; this happens once and takes a minute or so",
-            err=True,
-        )
+        lambda: note("compiling its kernels; this happens once and takes a minute or so")
     )
 
 

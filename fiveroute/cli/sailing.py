@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fiveroute.cli.notes import note
 from fiveroute.fleet_plan import FleetPlan
 from fiveroute.fleet_plan import sail as sail_in_its_ocean
 from fiveroute.instance import Instance
@@ -61,10 +62,7 @@ def name_unreachable(voyage: Voyage) -> None:
     """Say on standard error which nodes cannot be reached, if any."""
     if voyage.unreachable:
         why = "cannot be reached" if voyage.is_complete else "have no path yet"
-        click.echo(
-            f"fiveroute: these nodes {why} and are not visited: {', '.join(voyage.unreachable)}",
-            err=True,
-        )
+        note(f"these nodes {why} and are not visited: {', '.join(voyage.unreachable)}")
 
 
 def answer_plan(

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from fiveroute.cli import options
+from fiveroute.cli.notes import note
 
 if TYPE_CHECKING:
     from fiveroute.experiments.registry import Registry
@@ -150,7 +151,7 @@ def command(
     if registry:
         registry.end()
     if choices["gap"] and result.online_gap is None:
-        click.echo("fiveroute: no gap is given: a vehicle would have to sail all legs", err=True)
+        note("no gap is given: a vehicle would have to sail all legs")
     answer = answers.simulation_answer(voyage, result, choices["seed"])
     if as_json:
         answers.print_json(answer)
@@ -158,9 +159,7 @@ def command(
         answers.print_simulation(answer)
     no_plan_exists = is_proved_infeasible(theatre.problem)
     if no_plan_exists:
-        click.echo(
-            "fiveroute: the destination is out of reach in time; AUVs come home late", err=True
-        )
+        note("the destination is out of reach in time; AUVs come home late")
     ctx.exit(130 if outcome.interrupted else int(no_plan_exists))
 
 

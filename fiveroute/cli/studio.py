@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from fiveroute.cli import options
+from fiveroute.cli.notes import note
 
 __all__ = ["command"]
 
@@ -43,7 +44,7 @@ def command(file: Path | None, port: int, no_browser: bool, folder: Path | None)
     with Studio(session, port) as studio:
         announce_compilation()
         click.echo(studio.url)
-        click.echo("fiveroute: Ctrl-C ends the studio", err=True)
+        note("Ctrl-C ends the studio")
         if not no_browser:
             webbrowser.open(studio.url)
         # A shell that starts a command in the background has it ignore Ctrl-C.
@@ -53,4 +54,4 @@ def command(file: Path | None, port: int, no_browser: bool, folder: Path | None)
         except KeyboardInterrupt:
             session.close()
             lost = "" if session.is_saved else "; the last edits were not saved"
-            click.echo(f"fiveroute: the studio is closed{lost}", err=True)
+            note(f"the studio is closed{lost}")
