@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from fiveroute.errors import FiverouteError, InputError
-    from fiveroute.fleet_plan import FleetPlan, plan, read, solve
+    from fiveroute.fleet_plan import FleetPlan, plan, read, read_plan, solve
     from fiveroute.fleet_runs import simulate
     from fiveroute.instance import Instance
     from fiveroute.limits import Limits, Progress
@@ -34,6 +34,7 @@ __all__ = [
     "Status",
     "plan",
     "read",
+    "read_plan",
     "simulate",
     "solve",
 ]
@@ -48,6 +49,7 @@ _HOMES = {
     "Status": "fiveroute.result",
     "plan": "fiveroute.fleet_plan",
     "read": "fiveroute.fleet_plan",
+    "read_plan": "fiveroute.fleet_plan",
     "simulate": "fiveroute.fleet_runs",
     "solve": "fiveroute.fleet_plan",
 }

@@ -18,11 +18,13 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fiveroute.errors import InputError
 from fiveroute.instance import Instance
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.paths.voyage import Voyage
 from fiveroute.problem import TeamOrienteering, completion_rate
 from fiveroute.result import Result, Status
+from fiveroute.routes import Plan
 
 if TYPE_CHECKING:
     from fiveroute.formats.plan_file import PlanFile
@@ -31,7 +33,7 @@ if TYPE_CHECKING:
     from fiveroute.vehicle_files import Choices
     from fiveroute.verdict import Verdict
 
-__all__ = ["FleetPlan", "plan", "read", "sail", "solve"]
+__all__ = ["FleetPlan", "plan", "read", "read_plan", "sail", "solve"]
 
 _SHARE_OF_PATHS = 0.5
 """Share of a time limit that planning the paths may take."""
@@ -278,11 +280,54 @@ def read(path: str | PathLike[str], format_name: str | None = None) -> Instance:
         If the file cannot be read, with the line or field, the rule and the remedy.
     """
     from fiveroute.formats import read_instance
-    from fiveroute.formats.native import currents_file
+
+    return _with_full_name(read_instance(Path(path), format_name), Path(path))
+
+
+def read_plan(path: str | PathLike[str], *, limits: Limits | float | None = None) -> FleetPlan:
+    """Read a plan that was saved; its legs are planned again, unless this machine has kept them.
+
+    Parameters
+    ----------
+    path
+        The file.
+    limits
+        Seconds, or limits, of planning the legs.
+
+    Raises
+    ------
+    InputError
+        If the file is no valid plan, or its routes break a rule.
+    """
+    from fiveroute.check import check
+    from fiveroute.formats.plan_file import read_plan as read_file
 
     file = Path(path)
-    instance = read_instance(file, format_name)
-    named = currents_file(instance, file.absolute())
+    filed = read_file(file)
+    filed.require_currents(file.parent)
+    mission = _with_full_name(filed.instance, file)
+    voyage = sail(mission, straight_lines=filed.paths is None, limits=Limits.of(limits))
+    vertices = {node.id: vertex for vertex, node in enumerate(voyage.instance.nodes, start=1)}
+    strange = [name for route in filed.routes for name in route if name not in vertices]
+    if strange:
+        raise InputError(
+            "is no node that an AUV can reach", file=file, field="routes", value=strange[0]
+        )
+    routes = Plan.of([vertices[name] for name in route] for route in filed.routes)
+    problem = voyage.instance.problem(len(filed.routes), voyage.travel)
+    if violations := check(problem, routes):
+        raise InputError(f"{violations[0]}; plan it anew", file=file, field="routes")
+    result = Result(
+        filed.method, filed.status, routes, filed.objective, filed.bound, 0.0, filed.seed
+    )
+    return FleetPlan(voyage, problem, _known(voyage, result))
+
+
+def _with_full_name(instance: Instance, source: Path) -> Instance:
+    """An instance from a file, its file of currents named in full."""
+    from fiveroute.formats.native import currents_file
+
+    named = currents_file(instance, source.absolute())
     if named is None:
         return instance
     currents = replace(instance.ocean.currents, file=str(named))

@@ -71,6 +71,29 @@ def test_a_plan_goes_into_files(sea: fr.Instance, tmp_path: Path) -> None:
         plan.save(tmp_path / "plan.json")
 
 
+def test_a_saved_plan_comes_back(sea: fr.Instance, tmp_path: Path) -> None:
+    plan = fr.plan(sea)
+    plan.save(tmp_path / "plan.json")
+    again = fr.read_plan(tmp_path / "plan.json")
+    assert again.filed() == plan.filed()
+    assert again.verify().feasible
+    assert str(again) == str(plan)
+    assert fr.simulate(sea, again, runs=2).runs == fr.simulate(sea, plan, runs=2).runs
+
+
+@pytest.mark.parametrize(
+    ("routes", "says"), [([["2", "2"], []], "plan it anew"), ([["2", "none"], []], "no node")]
+)
+def test_a_saved_plan_that_breaks_a_rule_is_refused(
+    sea: fr.Instance, tmp_path: Path, routes: list[list[str]], says: str
+) -> None:
+    fr.plan(sea).save(tmp_path / "plan.json")
+    document = json.loads((tmp_path / "plan.json").read_text())
+    (tmp_path / "plan.json").write_text(json.dumps(document | {"routes": routes}))
+    with pytest.raises(fr.InputError, match=says):
+        fr.read_plan(tmp_path / "plan.json")
+
+
 def test_an_instance_is_read_wherever_it_lies(
     sea: fr.Instance, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
