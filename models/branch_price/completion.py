@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
 
-__all__ = ["Completion", "complete", "completion_bound", "nearest_nodes", "over_legs"]
+__all__ = ["Completion", "carried", "complete", "completion_bound", "nearest_nodes", "over_legs"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -109,7 +109,7 @@ def complete(
     nearest = nearest_nodes(leg, memory)
     cost = toll * np.where(finite, leg, 0.0)
     value = np.full((steps + 1, len(leg), 1 << memory), -np.inf)
-    _walk(whole, cost, gain, origin, _clusters(whole), _carry(nearest), value)
+    _walk(whole, cost, gain, origin, _clusters(whole), carried(nearest), value)
     return Completion(value, nearest, step)
 
 
@@ -139,7 +139,7 @@ def _clusters(whole: Ints) -> Ints:
 
 
 @kernel
-def _carry(nearest: Ints) -> Bytes:
+def carried(nearest: Ints) -> Bytes:
     """What a walk remembers at j that comes from i with s; -1 if it may not go there.
 
     Shape (size, 2 ** q, size), for i, s, j.
