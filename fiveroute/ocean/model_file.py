@@ -156,6 +156,7 @@ def decoded_times(variable: xr.DataArray) -> Times:
             field=f"{variable.name}.units",
             value=variable.attrs.get("units"),
         ) from error
-    if read.dtype.kind != "M" or np.isnat(read).any():
+    is_time = read.dtype.kind == "M" and read.shape == variable.shape  # letters become words
+    if not is_time or np.isnat(read).any():
         raise InputError("holds what is not a time", field=str(variable.name))
     return np.asarray(read.astype("datetime64[ns]"))

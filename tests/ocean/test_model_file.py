@@ -82,3 +82,11 @@ def test_refuses_a_file_that_is_not_there(tmp_path: Path) -> None:
         pass
     with pytest.raises(InputError, match="cannot be opened"), open_model_file(tmp_path):
         pass
+
+
+def test_letters_are_no_times() -> None:
+    """Letters that are scaled become one number, however many there are."""
+    packed = {"units": "hours since 2020-03-01", "scale_factor": 1.0, "add_offset": 0.0}
+    letters = np.array([b"7"], dtype="S1")
+    with pytest.raises(InputError, match="t: holds what is not a time"):
+        decoded_times(xr.DataArray(letters, dims="t", attrs=packed, name="t"))
