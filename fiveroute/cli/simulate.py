@@ -26,6 +26,7 @@ __all__ = ["command"]
 
 PLANNERS = (
     "five-tier",
+    "short-sighted",
     "cbba",
     "no-coordination",
     "ftcmp",

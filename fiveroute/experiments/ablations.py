@@ -1,8 +1,9 @@
 """What each part of the five-tiered planner is worth: one of them changed at a time.
 
 Every variant sails the same oceans on the same scenarios, M = 4, so that differences are taken
-scenario by scenario. Variants that plan differently before departure have plans of their own; all
-others set out with the plan of the whole planner.
+scenario by scenario. Variants set out with the plan of the whole planner, or with one of their own
+where their names say so. What does not look ahead has a plan by rehearsal, which is made for that,
+and is best compared with the short-sighted planner.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ __all__ = [
 FLEET = 4
 """AUVs of all variants."""
 
-_ALONE = "no-coordination"
+_ALONE, _SHORT = "no-coordination", "short-sighted"
 _RESAMPLES = 10_000
 _SAMPLES = 50  # of the leg times, for S-GGARP
 
@@ -60,9 +61,11 @@ class Variant:
     reserve
         Standard deviations of the remaining time kept in hand.
     planning
-        How its plan is made; None rehearses plans with its own reserve.
-    rehearsed_by
-        Who steers in rehearsals.
+        How its plan is made; None departs as a planner does with this reserve.
+    departing_as
+        That planner.
+    loss
+        Share of messages that are lost.
     """
 
     group: str
@@ -70,7 +73,8 @@ class Variant:
     planner: str = "five-tier"
     reserve: float = 1.645
     planning: Planning | None = None
-    rehearsed_by: str = "five-tier"
+    departing_as: str = "five-tier"
+    loss: float = 0.0
 
 
 def _slack(slack: float) -> Planning:
@@ -117,13 +121,19 @@ WHOLE = Variant("", "five-tier as it is")
 """What all others are compared with."""
 
 VARIANTS = (
-    Variant("tier 5", "no coordination, the same plan", _ALONE),
-    Variant("tier 5", "no coordination, its own plan", _ALONE, rehearsed_by=_ALONE),
-    Variant("tier 5", "discarding and auction only, as printed", "to-the-letter"),
-    Variant("tier 5", "own pick-up, no auction", "own-pick-up"),
-    Variant("tier 5", "auction, perfect communication", "of-one-mind"),
-    Variant("tier 5", "CBBA instead of the auction", "cbba"),
-    Variant("tier 5", "re-optimisation at every event", "re-optimising"),
+    Variant("coordination", "none: discarding only, its own plan", _ALONE, departing_as=_ALONE),
+    Variant("coordination", "none: discarding only, the same plan", _ALONE),
+    Variant("coordination", "every message lost", loss=1.0),
+    Variant("coordination", "own pick-up with perfect knowledge, no auction", "own-pick-up"),
+    Variant("coordination", "auction with perfect knowledge", "of-one-mind"),
+    Variant("looking ahead", "none, its own plan", _SHORT, departing_as=_SHORT),
+    Variant("looking ahead", "none, the same plan", _SHORT),
+    Variant("looking ahead", "at sea, not before departure", departing_as=_SHORT),
+    Variant("no looking ahead", "tier 5 as printed", "to-the-letter", departing_as=_SHORT),
+    Variant("no looking ahead", "CBBA instead of the auction", "cbba", departing_as=_SHORT),
+    Variant(
+        "no looking ahead", "re-optimisation at every event", "re-optimising", departing_as=_SHORT
+    ),
     Variant("reserve", "0, as in the paper", reserve=0.0),
     Variant("reserve", "0.8", reserve=0.8),
     Variant("plan", "best plan for planned times, no slack", planning=_slack(1.0)),
@@ -192,6 +202,7 @@ def sail_variants(
                 planner=variant.planner,
                 runs=runs,
                 reserve=variant.reserve,
+                loss=variant.loss,
                 seed=seed * 1000 + scenario,
                 log=False,
             )
@@ -206,10 +217,10 @@ def _plan_of(
     plans: dict[tuple[float, str], Plan],
     seed: int,
 ) -> Plan:
-    """The plan of a variant; a plan that was rehearsed before is taken again."""
+    """The plan of a variant; one that was made before is taken again."""
     if variant.planning is not None:
         return variant.planning(instance, seed)
-    key = variant.reserve, variant.rehearsed_by
+    key = variant.reserve, variant.departing_as
     if key not in plans:
         reserve, planner = key
         plans[key] = departure_plan(theatre, planner, reserve=reserve, seed=seed)

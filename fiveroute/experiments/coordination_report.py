@@ -55,8 +55,8 @@ def report(cases: Sequence[Case], rows: Sequence[Ablation], runs: int) -> str:
         "# Coordination (Section IV-C)",
         "One plan each, sailed with and without tier 5 in the same oceans. The pictures show the "
         "run whose gain is nearest to the mean; the paper shows one run, and does not say which. "
-        "The plans are those that rehearsals with coordination chose: without, a fleet does "
-        "better with a more cautious one, see the ablations.",
+        "The plans are the five-tiered planner's; without tier 5 a fleet does better with a more "
+        "cautious one, see the ablations.",
         _case_table(cases),
     ]
     if rows:

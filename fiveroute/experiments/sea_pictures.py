@@ -58,7 +58,7 @@ def _draw_gains(axis: Axes, gains: NDArray[np.float64], run: int) -> None:
     """How often coordination gains how much, and the run that is shown."""
     points = 100.0 * gains
     edges = np.arange(np.floor(2.0 * points.min()), np.ceil(2.0 * points.max()) + 2.0) / 2.0
-    axis.hist(points, bins=edges.tolist(), color=_LIGHT, edgecolor="white")
+    counts, _, _ = axis.hist(points, bins=edges.tolist(), color=_LIGHT, edgecolor="white")
     axis.axvline(0.0, color=_GREY, linewidth=0.8)
     axis.axvline(points.mean(), color=_BLACK, linestyle="--", label=f"mean {points.mean():+.1f}")
     axis.plot(points[run], 0.0, "v", color=_BLACK, markersize=9, clip_on=False, label="run shown")
@@ -66,11 +66,12 @@ def _draw_gains(axis: Axes, gains: NDArray[np.float64], run: int) -> None:
         title=f"gain of {len(points)} runs by coordination",
         xlabel="points of completion",
         ylabel="runs",
+        ylim=(0.0, 1.2 * np.max(counts)),  # the legend stands above
         box_aspect=1.0,
     )
     axis.yaxis.set_major_locator(MaxNLocator(integer=True))
     axis.spines[["top", "right"]].set_visible(False)
-    axis.legend(frameon=False)
+    axis.legend(loc="upper center", ncols=2, framealpha=1.0, edgecolor="white")
 
 
 def timeline(problem: TeamOrienteering, events: Sequence[Event], title: str) -> Figure:
@@ -126,7 +127,8 @@ def _draw_lane(
             axis.annotate(str(event.node), place, ha="center", fontsize=7, color="#666666")
     for kind, mark, height in _MARKS:
         times = [event.t / _HOUR for event in events if event.kind == kind]
-        axis.plot(times, [row + height] * len(times), mark, color=_BLACK, markersize=5.5, zorder=4)
+        size = 10.0 if kind == "arrive" else 5.5
+        axis.plot(times, [row + height] * len(times), mark, color=_BLACK, markersize=size, zorder=4)
     sent = [event.t / _HOUR for event in events if event.kind == "send"]
     axis.eventplot([sent], lineoffsets=row - 0.31, linelengths=0.1, colors=_GREY, linewidths=0.6)
     end = float(problem.budgets[auv]) / _HOUR
@@ -134,8 +136,8 @@ def _draw_lane(
 
 
 _MARKS: tuple[tuple[Kind, str, float], ...] = (
-    ("discard", "x", 0.35),
-    ("pick_up", "+", 0.45),
+    ("discard", "x", 0.39),
+    ("pick_up", "+", 0.49),
     ("manoeuvre", "d", -0.17),
     ("arrive", "*", 0.0),
     ("fail", "X", 0.0),
@@ -243,13 +245,14 @@ def scenario_chart(
         )
     best = np.argmax(list(means.values()), axis=0)
     for place, k in zip(places, best.tolist(), strict=True):
-        above.axvspan(place - 0.45, place + 0.45, color=_PLANNERS[k][1], alpha=0.14, lw=0)
+        above.axvspan(place - 0.45, place + 0.45, color=_PLANNERS[k][1], alpha=0.1, lw=0)
     above.set_title("Completion by scenario, shaded in the colour of the best", loc="left")
     above.set(ylabel="mean completion rate")
     above.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(means), frameon=False)
     above.grid(axis="y", alpha=0.3)
     _draw_fleets(below, places, fleets, fixed)
-    figure.legend(*below.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    words = below.get_legend_handles_labels()
+    figure.legend(*words, loc="outside lower center", ncols=3, frameon=False)
     return figure
 
 

@@ -131,12 +131,14 @@ def write_report(outcomes: Sequence[Outcome], folder: Path, force: bool = False)
         ("own-fleet.png", "M as estimated against four AUVs", ("five-tier", *_fixed())),
         ("equal-fleet.png", "The same number of AUVs", ("five-tier", *COMPETITORS)),
     ):
-        samples = {name: means[name].tolist() for name in names}
-        save_figure(completion_boxes(title, samples, {}), folder / file)
+        samples = {_words(name): means[name].tolist() for name in names}
+        boxes = completion_boxes(title, samples, {})
+        boxes.axes[0].set_ylabel("mean completion rate of a scenario")
+        save_figure(boxes, folder / file)
     names, errors = ("five-tier", *_fixed()), _errors(outcomes)
     chart = scenario_chart(
-        {name: means[name].tolist() for name in names},
-        {name: errors[name].tolist() for name in names},
+        {_words(name): means[name].tolist() for name in names},
+        {_words(name): errors[name].tolist() for name in names},
         _fleets(outcomes),
         FIXED_FLEET,
     )
@@ -147,6 +149,13 @@ def write_report(outcomes: Sequence[Outcome], folder: Path, force: bool = False)
 
 def _fixed() -> tuple[str, ...]:
     return tuple(f"{name}, M = {FIXED_FLEET}" for name in COMPETITORS)
+
+
+def _words(name: str) -> str:
+    """The name of a planner as people write it."""
+    for planner in COMPETITORS:
+        name = name.replace(planner, planner.upper())
+    return name
 
 
 def _name(outcome: Outcome) -> str:

@@ -41,7 +41,6 @@ from fiveroute.routes import Route
 from fiveroute.tiers.actuation import LegLaw, expected_legs, overruns
 
 __all__ = [
-    "LAST_BET",
     "LONGEST_LEG",
     "Course",
     "Outlook",
@@ -56,12 +55,8 @@ Stops = NDArray[np.int64]
 LONGEST_LEG = 1.5
 """How often the variance of the longest leg counts besides its own place in the sum."""
 
-LAST_BET = 1.35
-"""Standard deviations that the last bet keeps for each of the reserve, see `recourse`."""
-
 _STEPS, _MOST_STEPS = 100, 400  # of time in the longest budget
 _FINENESS = 0.75  # longest step, in standard deviations of a short leg
-_SUREST = 1e-9  # least probability that a last bet is lost
 
 
 class Outlook(NamedTuple):
@@ -89,7 +84,7 @@ class Outlook(NamedTuple):
     step
         Seconds of a step.
     price
-        Data that a late return costs, see `fiveroute.sea.recourse`.
+        Data that a late return costs, see `fiveroute.sea.recourse`; 0 for who does not look ahead.
     """
 
     legs: NDArray[np.float64]
@@ -122,14 +117,8 @@ def outlook(problem: TeamOrienteering, law: LegLaw, reserve: float) -> Outlook:
         slack=slack,
         late=overruns(law, problem.destination, times),
         step=longest / steps,
-        price=_price_of_being_late(profit[1:-1], reserve),
+        price=0.0,
     )
-
-
-def _price_of_being_late(data: NDArray[np.float64], reserve: float) -> float:
-    """Data that a late return costs, if a mean node is worth the last bet that may be made."""
-    lost = 0.5 * math.erfc(LAST_BET * reserve / math.sqrt(2.0))
-    return float(data.mean()) / max(lost, _SUREST) if len(data) else 0.0
 
 
 @dataclass(frozen=True, slots=True)

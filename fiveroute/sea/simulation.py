@@ -27,7 +27,7 @@ from fiveroute.sea.course import Outlook, outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.alone import Alone, sail_alone
 from fiveroute.sea.planners.cbba import Cbba
-from fiveroute.sea.planners.five_tier import FiveTier
+from fiveroute.sea.planners.five_tier import FiveTier, ShortSighted
 from fiveroute.sea.planners.ftcmp import Ftcmp
 from fiveroute.sea.planners.of_one_mind import OfOneMind
 from fiveroute.sea.planners.own_pick_up import OwnPickUp
@@ -51,11 +51,15 @@ _KNOWING: dict[str, Callable[[Voyage, Outlook, Plan], Crew]] = {
     "re-optimising": ReOptimising,
 }
 
-_TALKING: dict[str, type[FiveTier | Cbba]] = {"five-tier": FiveTier, "cbba": Cbba}
+_TALKING: dict[str, type[FiveTier | Cbba]] = {
+    "five-tier": FiveTier,
+    "short-sighted": ShortSighted,
+    "cbba": Cbba,
+}
 
 PLANNERS = (*_TALKING, "no-coordination", *_KNOWING)
 """Who can steer: the five-tiered planner with and without its fifth tier, the two that the paper
-compares with, a peer that agrees without an auction, and four to learn from, see their modules."""
+compares with, a peer that agrees without an auction, and five to learn from, see their modules."""
 
 
 def simulate_fleet(

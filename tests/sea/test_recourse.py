@@ -12,6 +12,7 @@ from fiveroute.instance import Uncertainty
 from fiveroute.sea.course import Course, Outlook, in_hand, outlook
 from fiveroute.sea.discarding import discard
 from fiveroute.sea.recourse import look_ahead, next_stop, reconsider, with_recourse
+from fiveroute.sea.replanning import TRIALS, replan
 from fiveroute.sea.theatre import Theatre
 
 ROUTE: tuple[int, ...] = (4, 7, 2, 9, 12, 6)
@@ -83,6 +84,12 @@ def test_what_comes_out_keeps_the_reserve(
     after, left_over = reconsider(view, before, order[nodes // 2 :])
     assert sorted((*after.route, *left_over)) == list(range(1, nodes + 1))
     assert in_hand(view, after) >= min(0.0, in_hand(view, discard(view, before)[0]))
+
+
+def test_where_a_late_return_has_no_price_nobody_looks_ahead(theatre: Theatre) -> None:
+    plain, course = outlook(theatre.problem, theatre.law, 1.645), Course(0, 0.0, 0.0, 9000.0, ROUTE)
+    assert reconsider(plain, course, (1, 3)) == replan(plain, course, (1, 3), TRIALS, 0)
+    assert with_recourse(plain).price > 1.0 > plain.price == 0.0
 
 
 def test_where_nothing_is_uncertain_a_plan_that_fits_is_sailed() -> None:

@@ -6,6 +6,8 @@ keeps which of the nodes that the plan leaves out: the one whose route they lie 
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,7 +23,7 @@ from fiveroute.sea.recourse import with_recourse
 from fiveroute.sea.voyage import Voyage
 from fiveroute.sea.watch import SILENCE
 
-__all__ = ["FiveTier"]
+__all__ = ["FiveTier", "ShortSighted"]
 
 
 class FiveTier:
@@ -45,6 +47,9 @@ class FiveTier:
         Seconds after which a silent AUV is suspected; infinite where none ever fails.
     """
 
+    looks_ahead: ClassVar[bool] = True
+    """Whether nodes are options to its AUVs; otherwise they sail the best course by expectation."""
+
     def __init__(
         self,
         voyage: Voyage,
@@ -64,7 +69,7 @@ class FiveTier:
             Holdings(list(route), {node for node, keeper in keepers.items() if keeper == auv})
             for auv, route in enumerate(plan.routes)
         ]
-        view = with_recourse(view)
+        view = with_recourse(view) if self.looks_ahead else view
         estates = {auv: book.mine for auv, book in enumerate(books)}
         self.agents = [
             Agent(auv, voyage, self.radio, view, book, estates, silence, self._note_takeover)
@@ -91,6 +96,12 @@ class FiveTier:
         ]
         self.takeovers += 1
         self.false_takeovers += len(holders) > 1
+
+
+class ShortSighted(FiveTier):
+    """The same without looking ahead; the difference is what that is worth."""
+
+    looks_ahead = False
 
 
 def first_keepers(problem: TeamOrienteering, plan: Plan) -> dict[int, int]:
