@@ -17,7 +17,7 @@ from fiveroute.generate import paper_scenario
 from fiveroute.instance import Instance
 from fiveroute.routes import Plan, Route
 from fiveroute.sea.auction import assign_by_auction
-from fiveroute.sea.course import Course, Outlook, outlook
+from fiveroute.sea.course import Course, Outlook
 from fiveroute.sea.departure import departure_plan
 from fiveroute.sea.discarding import discard
 from fiveroute.sea.picking import offers
@@ -151,7 +151,7 @@ def busiest_auction(theatre: Theatre, plan: Plan, runs: int, seed: int = 0) -> t
     nodes are auctioned at every event. Nothing is returned if nobody ever bids.
     """
     best: tuple[Round, ...] = ()
-    view = outlook(theatre.problem, theatre.law, reserve=0.0)
+    view = theatre.outlook(reserve=0.0)
     for run in range(runs):
         never = (float("inf"),) * theatre.problem.fleet_size
         voyage = Voyage(theatre.problem, theatre.luck(seed, run), never)

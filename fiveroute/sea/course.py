@@ -22,6 +22,12 @@ with it (0.869), and 0.1 % if it is added twice (0.866).
 An AUV that looks ahead does without this addition: a late return has a price there, see
 `fiveroute.sea.recourse`.
 
+Where a vehicle sails, legs are neither independent nor normal. Of the leg home, which nothing can
+correct, the pace is normal (`Pace`), its time has a heavy tail, and its variance is that of a
+normal leg that is as late once in two hundred times. Legs on the way have the drift that the fit
+finds for walks of several legs. That slow legs come together, the reserve makes up for: it is
+larger by the first number of `IN_CURRENTS`, and that of a last bet by the second.
+
 A rule that looks no further than the next node, and from there straight home, collects less: far
 out, one long leg has a greater variance than the same way in several, whose luck evens out.
 """
@@ -41,9 +47,12 @@ from fiveroute.routes import Route
 from fiveroute.tiers.actuation import LegLaw, expected_legs, overruns
 
 __all__ = [
+    "IN_CURRENTS",
+    "LAST_BET",
     "LONGEST_LEG",
     "Course",
     "Outlook",
+    "Pace",
     "Stops",
     "in_hand",
     "outlook",
@@ -55,8 +64,30 @@ Stops = NDArray[np.int64]
 LONGEST_LEG = 1.5
 """How often the variance of the longest leg counts besides its own place in the sum."""
 
+LAST_BET = 1.35
+"""Standard deviations that the last bet keeps for each of the reserve, see `recourse`."""
+
+IN_CURRENTS = 1.15, 1.9
+"""What the reserve is multiplied by where a vehicle sails, and `LAST_BET` there."""
+
+_RARE = 2.576  # deviations that one normal number in two hundred is beyond
+_SLOWEST = 0.2  # least pace that is reckoned with
 _STEPS, _MOST_STEPS = 100, 400  # of time in the longest budget
 _FINENESS = 0.75  # longest step, in standard deviations of a short leg
+_SUREST = 1e-9  # least probability that a last bet is lost
+
+
+class Pace(NamedTuple):
+    """Expected over real time of a leg that a vehicle sails: a normal number.
+
+    Parameters
+    ----------
+    mean, scatter
+        Its mean and standard deviation, whatever the length of the leg.
+    """
+
+    mean: float
+    scatter: float
 
 
 class Outlook(NamedTuple):
@@ -75,7 +106,8 @@ class Outlook(NamedTuple):
     reserve
         z, standard deviations of the remaining time kept in hand.
     longest
-        How often the variance of the longest leg counts besides its own place in the sum.
+        How often the variance of the longest leg counts besides its own place in the sum; 0 for who
+        looks ahead.
     slack
         Seconds by which a budget may be overrun, for rounding.
     late
@@ -84,7 +116,7 @@ class Outlook(NamedTuple):
     step
         Seconds of a step.
     price
-        Data that a late return costs, see `fiveroute.sea.recourse`; 0 for who does not look ahead.
+        Data that a late return costs, see `fiveroute.sea.recourse`.
     """
 
     legs: NDArray[np.float64]
@@ -99,15 +131,27 @@ class Outlook(NamedTuple):
     price: float
 
 
-def outlook(problem: TeamOrienteering, law: LegLaw, reserve: float) -> Outlook:
-    """What the AUVs expect where legs follow a law, and what they keep in hand."""
+def outlook(
+    problem: TeamOrienteering, law: LegLaw, reserve: float, pace: Pace | None = None
+) -> Outlook:
+    """What the AUVs expect where legs follow a law, and what they keep in hand.
+
+    Parameters
+    ----------
+    problem, law
+        The problem, and the law of its legs.
+    reserve
+        Standard deviations of the remaining time kept in hand.
+    pace
+        That of the legs home, where a vehicle sails; None where they follow the law as well.
+    """
     mean, variance = expected_legs(law)
     slack = float((problem.allowed - problem.budgets).min())
     service, profit = problem.service.copy(), problem.profit.copy()
     longest, short = float(problem.budgets.max()), float(np.quantile(np.sqrt(variance), 0.1))
     steps = min(max(math.ceil(longest / max(_FINENESS * short, 1e-9)), _STEPS), _MOST_STEPS)
     times = np.linspace(0.0, longest, steps + 1)
-    return Outlook(
+    view = Outlook(
         legs=mean + service,
         variance=variance,
         service=service,
@@ -117,8 +161,36 @@ def outlook(problem: TeamOrienteering, law: LegLaw, reserve: float) -> Outlook:
         slack=slack,
         late=overruns(law, problem.destination, times),
         step=longest / steps,
-        price=0.0,
+        price=_price_of_being_late(profit, LAST_BET * reserve),
     )
+    return view if pace is None else _in_currents(view, law, pace)
+
+
+def _in_currents(view: Outlook, law: LegLaw, pace: Pace) -> Outlook:
+    """The same with the heavy tail of legs home, and a reserve for what else currents do."""
+    from scipy.special import ndtr
+
+    home = len(view.profit) - 1
+    expected = law.planned[:, home]
+    variance, slowest = view.variance.copy(), max(pace.mean - _RARE * pace.scatter, _SLOWEST)
+    variance[:, home] = (expected * max(1.0 / slowest - 1.0, 0.0) / _RARE) ** 2
+    times = view.step * np.arange(view.late.shape[1])
+    spare = np.maximum(times - law.encounters[:, home, None] * law.manoeuvre_time, 1e-9)
+    late = ndtr((expected[:, None] / spare - pace.mean) / max(pace.scatter, 1e-9))
+    late[home] = 0.0
+    caution, last_bet = IN_CURRENTS
+    return view._replace(
+        variance=variance,
+        reserve=caution * view.reserve,
+        late=late,
+        price=_price_of_being_late(view.profit, last_bet * view.reserve),
+    )
+
+
+def _price_of_being_late(profit: NDArray[np.float64], deviations: float) -> float:
+    """Data that a late return costs, if a mean node is worth the last bet that may be made."""
+    data, lost = profit[1:-1], 0.5 * math.erfc(deviations / math.sqrt(2.0))
+    return float(data.mean()) / max(lost, _SUREST) if len(data) else 0.0
 
 
 @dataclass(frozen=True, slots=True)

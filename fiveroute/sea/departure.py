@@ -31,7 +31,7 @@ from fiveroute.heuristics.shortest_routes import shortest_routes
 from fiveroute.limits import Clock, Limits
 from fiveroute.problem import TeamOrienteering
 from fiveroute.routes import Plan
-from fiveroute.sea.course import Course, outlook
+from fiveroute.sea.course import Course
 from fiveroute.sea.option_search import best_options
 from fiveroute.sea.recourse import reconsider, with_recourse
 from fiveroute.sea.simulation import simulate_fleet
@@ -139,7 +139,7 @@ def _with_options(
     theatre: Theatre, plans: Sequence[Plan], reserve: float, rng: np.random.Generator, clock: Clock
 ) -> Plan:
     """What is expected of the courses that are worth most, options included, near any plan."""
-    view = with_recourse(outlook(theatre.problem, theatre.law, reserve))
+    view = with_recourse(theatre.outlook(reserve))
     budgets = theatre.problem.budgets
     found = [best_options(view, plan.routes, budgets, _OPTION_TRIALS, rng, clock) for plan in plans]
     options, _ = max(found, key=lambda pair: pair[1])

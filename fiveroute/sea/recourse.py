@@ -14,9 +14,10 @@ Operations Research 186, 2011, doi 10.1007/s10479-011-0895-2).
 
 The price c of a late return follows from the reserve of z standard deviations. The last bet of an
 AUV, for a node of mean data rho, is worth while if it is lost with probability rho / c at most; c
-is such that this is 1 - Phi(1.35 z). The reserve itself stays a promise as well: what the AUV
-has before it, sailed as planned, always ends in time with probability Phi(z)
-(`fiveroute.sea.course`), but without the longest leg's extra share, which the price replaces.
+is such that this is 1 - Phi(1.35 z), or 1 - Phi(1.9 z) where a vehicle sails. The reserve itself
+stays a promise as well: what the AUV has before it, sailed as planned, always ends in time with
+probability Phi(z) (`fiveroute.sea.course`), but without the longest leg's extra share, which the
+price replaces.
 
 V is kept at equal steps of time and linear between them. Legs under way are taken as normal, at
 nine equidistant points; the leg home, which nothing can correct, with the whole law (12).
@@ -36,23 +37,10 @@ from fiveroute.sea.course import Course, Outlook, Stops, in_hand
 from fiveroute.sea.discarding import discard
 from fiveroute.sea.replanning import TRIALS, cheapest_place, replan
 
-__all__ = [
-    "LAST_BET",
-    "SKIPS",
-    "expected_route",
-    "look_ahead",
-    "next_stop",
-    "reconsider",
-    "with_recourse",
-]
-
-LAST_BET = 1.35
-"""Standard deviations that the last bet keeps for each of the reserve."""
+__all__ = ["SKIPS", "expected_route", "look_ahead", "next_stop", "reconsider", "with_recourse"]
 
 SKIPS = 4
 """Nodes after a vertex among which an AUV chooses the next; home is always a choice."""
-
-_SUREST = 1e-9  # least probability that a last bet is lost
 
 _SPACING, _REACH = 0.75, 4  # of the points of a normal number, and how many on each side
 
@@ -62,13 +50,7 @@ _WEIGHTS = np.exp(-0.5 * _POINTS**2) / np.exp(-0.5 * _POINTS**2).sum()
 
 def with_recourse(view: Outlook) -> Outlook:
     """What AUVs expect that look ahead: the price of being late is enough for the last leg."""
-    return view._replace(longest=0.0, price=_price_of_being_late(view))
-
-
-def _price_of_being_late(view: Outlook) -> float:
-    """Data that a late return costs, if a mean node is worth the last bet that may be made."""
-    data, lost = view.profit[1:-1], 0.5 * math.erfc(LAST_BET * view.reserve / math.sqrt(2.0))
-    return float(data.mean()) / max(lost, _SUREST) if len(data) else 0.0
+    return view._replace(longest=0.0)
 
 
 def reconsider(
@@ -78,8 +60,8 @@ def reconsider(
 
     Every idle node is put where it costs least, if the course is worth more with it. What the AUV
     will visit if all legs take what is expected is the new course, shortened by (25) should it
-    not keep the reserve. Where nothing is uncertain or a late return has no price, there is nothing
-    to look ahead to, and the course is the best by what is expected of it.
+    not keep the reserve. Where nothing is uncertain there is nothing to look ahead to, and who does
+    not look ahead takes the best course by what is expected of it.
 
     Returns
     -------
@@ -88,7 +70,7 @@ def reconsider(
     left_over
         Nodes of the old course and idle ones that are not on it, in ascending order.
     """
-    if view.price == 0.0 or not view.variance.any():
+    if view.longest > 0.0 or not view.variance.any():
         return replan(view, course, idle, TRIALS, 0)
     pool = {*course.route, *idle}
     stops = np.zeros(len(pool) + 2, np.int64)

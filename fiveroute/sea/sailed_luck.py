@@ -158,10 +158,9 @@ class VehicleModel:
     ) -> Fit:
         """What (12) should assume of legs such as routes are made of.
 
-        (12) takes legs for independent and their times for normal. The legs of a route follow
-        each other through the same water, and a current ahead delays more than one astern helps. So
-        walks home of several legs are sailed, which are what a reserve is for, and the drift is
-        that of `drift_of_walks`.
+        (12) takes legs for independent, but the legs of a route follow each other through the same
+        water. So walks home of several legs are sailed, which are what a reserve is for, and the
+        drift is that of `drift_of_walks`.
 
         Parameters
         ----------

@@ -23,7 +23,7 @@ from fiveroute.problem import TIME_TOLERANCE
 from fiveroute.routes import Plan
 from fiveroute.sea.channel import PRESETS, Channel
 from fiveroute.sea.clairvoyant import clairvoyant_plan
-from fiveroute.sea.course import Outlook, outlook
+from fiveroute.sea.course import Outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.alone import Alone, sail_alone
 from fiveroute.sea.planners.cbba import Cbba
@@ -119,7 +119,7 @@ def simulate_fleet(
     _check_options(theatre, plan, planner, runs, reserve, failures)
     sea = _Sea(
         theatre,
-        outlook(theatre.problem, theatre.law, reserve),
+        theatre.outlook(reserve),
         channel if loss is None else replace(channel, loss=loss),
         failures,
         seed,

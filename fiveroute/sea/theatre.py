@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from fiveroute.instance import Instance, Uncertainty
 from fiveroute.limits import Limits
 from fiveroute.problem import TeamOrienteering, completion_rate
+from fiveroute.sea.course import Outlook, Pace, outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.sailed_luck import SailedLuck, VehicleModel
 from fiveroute.tiers.actuation import LegLaw, leg_law, uncertainty_of
@@ -39,6 +40,8 @@ class Theatre:
         The vehicle that sails the legs; None where they take what the law says.
     out_of_reach
         Data of nodes that cannot be reached, which completion rates count as well.
+    pace
+        That of the vehicle on its way home; None where legs take what the law says.
     """
 
     problem: TeamOrienteering
@@ -47,6 +50,7 @@ class Theatre:
     lengths_km: NDArray[np.float64]
     model: VehicleModel | None = None
     out_of_reach: float = 0.0
+    pace: Pace | None = None
 
     @classmethod
     def of(
@@ -114,12 +118,17 @@ class Theatre:
             fit.uncertainty, drift=fit.drift.value / (1.0 + delay), floor=self.law.floor
         )
         law = leg_law((1.0 + delay) * self.problem.travel, self.lengths_km, uncertainty)
-        return replace(self, law=law, model=model)
+        pace = Pace((1.0 + delay) * fit.pace.value, (1.0 + delay) * fit.scatter.value)
+        return replace(self, law=law, model=model, pace=pace)
 
     @property
     def by_law(self) -> Theatre:
         """The same mission, its legs by the law alone, for fast rehearsals."""
         return replace(self, model=None)
+
+    def outlook(self, reserve: float) -> Outlook:
+        """What the AUVs expect, and keep in hand for a reserve of so many standard deviations."""
+        return outlook(self.problem, self.law, reserve, self.pace)
 
     def luck(self, seed: int, run: int) -> Luck | SailedLuck:
         """What every leg takes in one run."""

@@ -11,10 +11,11 @@ its variance, give manoeuvre_time as all seconds lost over all manoeuvres. The G
 of (12) has mean 0: a vehicle that is late on the average adds to the drift, and the mean delay
 is told besides, so that it can be seen how much of the drift it is.
 
-Legs that are sailed one after the other are late together, and in a current that the plan did not
-know it is the pace 1 / f that is nearly normal, not the time f, whose upper tail is far
-heavier. A reserve is made for that tail. `drift_of_walks` therefore takes the drift by which
-independent normal legs would be as late as one walk of several legs in two hundred is.
+Legs that are sailed one after the other are late together. `drift_of_walks` therefore takes the
+drift with which independent legs would scatter together as walks of several legs do. And in a
+current that the plan did not know it is the pace t / f_0 that is nearly normal, with a mean
+and a standard deviation that hardly depend on t; the time f_0 has a far heavier upper tail, which
+counts where nothing can be corrected any more.
 """
 
 from __future__ import annotations
@@ -39,13 +40,6 @@ from fiveroute.vehicle.tracking import sail_track
 __all__ = ["Estimate", "Fit", "SailedLegs", "drift_of_walks", "fit_uncertainty", "sail_legs"]
 
 Floats = NDArray[np.float64]
-
-_RARE = 2.576
-"""Standard deviations that one normal number in two hundred is beyond: about as many as the default
-reserve keeps for a single leg (`fiveroute.sea.course`)."""
-
-_SLOWEST = 0.2
-"""Least share of the planned pace that is reckoned with; in slower seas nothing can be planned."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -91,6 +85,8 @@ class Fit:
         Its parameters, as `Uncertainty` has them.
     delay
         Mean of (f_0 - t) / t: what the plan leaves out on the average.
+    pace, scatter
+        Mean and standard deviation of t / f_0, which is 0 for a leg that was not sailed to its end.
     legs
         Number of legs that were sailed to their ends both ways, and enter the fit.
     failed
@@ -101,6 +97,8 @@ class Fit:
     manoeuvres_per_km: Estimate
     manoeuvre_time: Estimate
     delay: Estimate
+    pace: Estimate
+    scatter: Estimate
     legs: int
     failed: int
 
@@ -164,23 +162,24 @@ def fit_uncertainty(legs: SailedLegs) -> Fit:
     lost, total = legs.sailed[done] - legs.unhindered[done], int(manoeuvres.sum())
     drift, each = math.sqrt(float((share**2).mean())), float(lost.sum()) / max(total, 1)
     residuals = lost - each * manoeuvres
+    pace, tried = legs.planned / legs.unhindered, len(done)
+    scatter = float(pace.std())
     return Fit(
         Estimate(drift, drift / math.sqrt(2.0 * count)),
         Estimate(total / kilometres, math.sqrt(max(total, 1)) / kilometres),
         Estimate(each, math.sqrt(float((residuals**2).sum())) / max(total, 1)),
         Estimate(float(share.mean()), float(share.std(ddof=1)) / math.sqrt(count)),
+        Estimate(float(pace.mean()), scatter / math.sqrt(tried)),
+        Estimate(scatter, scatter / math.sqrt(2.0 * tried)),
         count,
         len(done) - count,
     )
 
 
 def drift_of_walks(legs: SailedLegs, walk: NDArray[np.int64], delay: float) -> Estimate:
-    """The drift of independent legs that are as late as rarely as walks of legs are.
+    """The drift of independent legs that scatter together as walks of legs do.
 
-    A walk planned for T = sum of t seconds has the pace p = (1 + delay) T / sum of f_0. With
-    mean m and standard deviation s of p over all walks, one in two hundred takes longer than
-    (1 + delay) T / (m - 2.576 s), where independent normal legs would take
-    (1 + delay) T + 2.576 drift sqrt(sum of t^2).
+    It is the root of the mean over all walks of (sum of f_0 - (1 + delay) t)^2 / sum of t^2.
 
     Parameters
     ----------
@@ -193,13 +192,9 @@ def drift_of_walks(legs: SailedLegs, walk: NDArray[np.int64], delay: float) -> E
     """
     arrived = np.isfinite(legs.unhindered)
     planned, of = legs.planned[arrived], np.unique(walk[arrived], return_inverse=True)[1]
-    expected = (1.0 + delay) * np.bincount(of, planned)
-    pace = expected / np.bincount(of, legs.unhindered[arrived])
-    scatter = float(pace.std())
-    slowest = max(float(pace.mean()) - _RARE * scatter, _SLOWEST)
-    apart = float((expected / np.sqrt(np.bincount(of, planned**2))).mean())
-    drift = max(1.0 / slowest - 1.0, 0.0) * apart / _RARE
-    return Estimate(drift, apart * scatter / slowest**2 / math.sqrt(2.0 * len(pace)))
+    late = np.bincount(of, legs.unhindered[arrived] - (1.0 + delay) * planned)
+    drift = math.sqrt(float((late**2 / np.bincount(of, planned**2)).mean()))
+    return Estimate(drift, drift / math.sqrt(2.0 * len(late)))
 
 
 def _time(leg: SailedTrack) -> float:

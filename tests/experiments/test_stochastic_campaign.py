@@ -95,7 +95,7 @@ def test_the_numbers_do_not_depend_on_the_workers() -> None:
 
 def test_what_a_cell_sets_out_with_comes_back_as_it_was() -> None:
     share = Estimate(0.1, 0.01)
-    fit = Fit(share, share, share, Estimate(0.0, 0.02), legs=9, failed=1)
+    fit = Fit(share, share, share, Estimate(0.0, 0.02), share, share, legs=9, failed=1)
     for departure in (
         Departure(Plan(((1, 2), ())), 0.75),
         Departure(Plan(((3,),)), 0.5, fit),

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from fiveroute.sea.course import Course, in_hand, outlook
+from fiveroute.sea.course import IN_CURRENTS, Course, Pace, in_hand, outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.theatre import Theatre
 
@@ -37,6 +37,23 @@ def test_a_course_without_time_in_hand_is_in_time_as_promised(
     assert least - 0.04 <= in_time <= most + 0.04
     if not route:
         assert in_time == pytest.approx(most, abs=0.04)
+
+
+def test_in_currents_the_pace_of_the_leg_home_is_normal(theatre: Theatre) -> None:
+    law = theatre.law._replace(manoeuvre_time=0.0)
+    plain, view = (outlook(theatre.problem, law, 1.0, pace) for pace in (None, Pace(1.0, 0.2)))
+    home = len(view.profit) - 1
+    times = view.step * np.arange(view.late.shape[1])
+    for node in (1, 9, 16):
+        for z in (-1.0, 0.0, 1.645):
+            late = float(
+                np.interp(law.planned[node, home] / (1.0 - 0.2 * z), times, view.late[node])
+            )
+            assert late == pytest.approx(NormalDist().cdf(-z), abs=0.02)
+    assert view.reserve == IN_CURRENTS[0] * plain.reserve
+    assert view.price > plain.price
+    assert (view.variance[1:home, home] > plain.variance[1:home, home]).all()
+    assert (view.variance[:, :home] == plain.variance[:, :home]).all()
 
 
 def test_an_uncertain_anchor_counts(theatre: Theatre) -> None:

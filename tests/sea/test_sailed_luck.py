@@ -19,7 +19,6 @@ from fiveroute.routes import Plan
 from fiveroute.sea.sailed_luck import SailedLuck, VehicleModel
 from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
-from fiveroute.tiers.actuation import expected_legs
 from fiveroute.vehicle.sailed_track import Outcome, least_clearance
 from fiveroute.vehicle.tracking import sail_track
 from fiveroute.vehicle.true_ocean import Forecast
@@ -100,7 +99,7 @@ def test_a_leg_without_a_path_leads_nowhere(model: VehicleModel) -> None:
 
 def test_the_law_expects_what_the_vehicle_does(sailed: Theatre, model: VehicleModel) -> None:
     law, planned = sailed.law, sailed.problem.travel
-    assert 0.2 < law.drift < 0.6, "the upper tail's, above the stated 0.2"
+    assert 0.2 < law.drift < 0.4, "of legs that are late together, above the stated 0.2"
     assert 1.0 < law.planned[0, 5] / planned[0, 5] < 1.15
     lucks = [SailedLuck(model, 77, run) for run in range(12)]
     legs = [(k, k + 1) for k in range(1, 8)]
@@ -123,15 +122,17 @@ def test_a_fit_of_a_round_trip(theatre: Theatre, model: VehicleModel) -> None:
     assert math.isfinite(fit.delay.value)
 
 
-def test_a_way_home_is_as_late_as_rarely_as_the_law_says(
-    sailed: Theatre, model: VehicleModel
-) -> None:
-    """Three legs and the way home in thirty oceans: none is later than 2.576 deviations."""
-    mean, variance = expected_legs(sailed.law)
-    legs = [(3, 8), (8, 12), (12, 25)]
-    late = [sum(SailedLuck(model, 99, run).leg(*leg).time for leg in legs) for run in range(30)]
-    allowed = sum(mean[leg] for leg in legs) + 2.576 * math.sqrt(sum(variance[leg] for leg in legs))
-    assert sum(time > allowed for time in late) <= 1
+def test_a_leg_home_is_late_as_rarely_as_expected(sailed: Theatre, model: VehicleModel) -> None:
+    """The probability that it takes longer than it did is spread evenly from 0 to 1."""
+    view, lucks = sailed.outlook(1.645), [SailedLuck(model, 99, run) for run in range(30)]
+    times = view.step * np.arange(view.late.shape[1])
+    later = [
+        float(np.interp(luck.leg(node, 25).time, times, view.late[node]))
+        for luck in lucks
+        for node in (3, 8, 12, 17)
+    ]
+    assert np.mean(later) == pytest.approx(0.5, abs=0.1)
+    assert np.mean(np.array(later) < 0.1) == pytest.approx(0.1, abs=0.07)
 
 
 @pytest.mark.parametrize("planner", ["five-tier", "no-coordination", "rmmp"])
