@@ -67,7 +67,7 @@ LONGEST_LEG = 1.5
 LAST_BET = 1.35
 """Standard deviations that the last bet keeps for each of the reserve, see `recourse`."""
 
-IN_CURRENTS = 1.15, 1.9
+IN_CURRENTS = 1.25, 2.1
 """What the reserve is multiplied by where a vehicle sails, and `LAST_BET` there."""
 
 _RARE = 2.576  # deviations that one normal number in two hundred is beyond

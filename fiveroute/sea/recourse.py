@@ -14,7 +14,7 @@ Operations Research 186, 2011, doi 10.1007/s10479-011-0895-2).
 
 The price c of a late return follows from the reserve of z standard deviations. The last bet of an
 AUV, for a node of mean data rho, is worth while if it is lost with probability rho / c at most; c
-is such that this is 1 - Phi(1.35 z), or 1 - Phi(1.9 z) where a vehicle sails. The reserve itself
+is such that this is 1 - Phi(1.35 z), or 1 - Phi(2.1 z) where a vehicle sails. The reserve itself
 stays a promise as well: what the AUV has before it, sailed as planned, always ends in time with
 probability Phi(z) (`fiveroute.sea.course`), but without the longest leg's extra share, which the
 price replaces.
