@@ -35,6 +35,9 @@ MANNERS = ((1.0, 0.0), (1.0, 0.0), (1.0, 0.0), (10.0, 1.0))
 FEW_NODES, MANNERS_OF_FEW = 150, ((1.0, 0.0), (1.0, 0.0), (3.0, 0.0), (3.0, 0.0))
 """Number of nodes up to which islands have other manners, and these."""
 
+CAPACITY = 4000
+"""Most routes that are kept, but for large fleets."""
+
 PAIRS, TOGETHER = 2, 3
 """Pools at first, one for every two islands, and the round from which on all share one."""
 
@@ -73,7 +76,7 @@ class Archipelago:
                 Island.settle(network, bare if k else trails, price, random_state(rng), *manner)
                 for k, manner in enumerate(manners)
             ),
-            tuple(Pool(network, least=2 * len(MANNERS) * len(network.limit)) for _ in range(PAIRS)),
+            tuple(Pool(network, _capacity(network) // PAIRS) for _ in range(PAIRS)),
         )
 
     @property
@@ -126,12 +129,12 @@ class Archipelago:
             pool.add(island.best_trails)
 
     def _recombine(self, for_each: ForEach) -> None:
-        self._pool_best()
-        if self.round >= TOGETHER:
-            first, *others = self.pools
-            for other in others:
-                first.add(other.trails)
-            self.pools = (first,)
+        if self.round >= TOGETHER and len(self.pools) > 1:
+            everything = Pool(self.network, _capacity(self.network))
+            for pool in self.pools:
+                everything.add(pool.trails)
+            self.pools = (everything,)
+        self._pool_best()  # at last, so that none of these has left when they are looked up
         for pool in self.pools:
             neighbours = [island for shared, island in self._pooled() if shared is pool]
             self._learn(pool, neighbours, for_each)
@@ -145,6 +148,11 @@ class Archipelago:
             ),
             islands,
         )
+
+
+def _capacity(network: Network) -> int:
+    """Routes that are kept in all: twice the best ones of all islands at least."""
+    return max(CAPACITY, 2 * len(MANNERS) * len(network.limit))
 
 
 def _bare(network: Network, trails: Sequence[Trail]) -> list[Trail]:

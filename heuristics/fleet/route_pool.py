@@ -13,9 +13,6 @@ from fiveroute.heuristics.fleet.network import Floats, Ints, Network, Trail
 
 __all__ = ["Pool", "PooledRoutes"]
 
-CAPACITY = 4000
-"""Most routes that are kept; the oldest leave first."""
-
 
 class PooledRoutes(NamedTuple):
     """The routes of a pool, side by side for the kernels.
@@ -46,15 +43,15 @@ class Pool:
     ----------
     network
         The problem.
-    least
-        Number of routes that it holds at least, however many it is made for.
+    capacity
+        Most routes that are kept; the oldest leave first.
     """
 
     __slots__ = ("_capacity", "_network", "_routes")
 
-    def __init__(self, network: Network, least: int = 0) -> None:
+    def __init__(self, network: Network, capacity: int) -> None:
         self._network = network
-        self._capacity = max(CAPACITY, least)
+        self._capacity = capacity
         self._routes: dict[frozenset[int], tuple[float, Trail]] = {}
 
     def __len__(self) -> int:

@@ -1,5 +1,7 @@
 import numpy as np
+import pytest
 
+from fiveroute.heuristics.fleet import archipelago
 from fiveroute.heuristics.fleet.archipelago import PAIRS, TOGETHER, Archipelago
 from fiveroute.heuristics.fleet.crew import crew
 from fiveroute.heuristics.fleet.network import Network, build_network
@@ -40,6 +42,18 @@ def test_neighbours_learn_from_each_other_and_later_all_from_all() -> None:
         islands.run(200, 1.0, for_each)
     assert len(islands.pools) == 1
     assert {frozenset(t) for t in set.union(*apart)} <= set(map(frozenset, islands.pools[0].trails))
+
+
+def test_the_best_routes_stay_known_when_pools_are_full(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(archipelago, "CAPACITY", 1)
+    rng = np.random.default_rng(8)
+    islands = Archipelago.around(Plan.empty(2), random_network(rng), 0.01, rng)
+    with crew(1) as for_each:
+        for part in np.linspace(0.0, 1.0, 300):
+            islands.run(50, part, for_each)
+    assert islands.round == ROUNDS - 1
+    assert islands.objective > 0.0
+    assert len(islands.pools[0]) == 2 * len(archipelago.MANNERS) * 2  # full
 
 
 def test_one_island_starts_from_the_plan_and_the_others_from_nothing() -> None:

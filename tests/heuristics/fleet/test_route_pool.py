@@ -1,7 +1,7 @@
 import numpy as np
 
 from fiveroute.heuristics.fleet.network import Network, build_network
-from fiveroute.heuristics.fleet.route_pool import CAPACITY, Pool
+from fiveroute.heuristics.fleet.route_pool import Pool
 from fiveroute.problem import TeamOrienteering
 
 
@@ -13,7 +13,7 @@ def network(n: int = 4) -> Network:
 
 
 def test_of_two_orders_the_faster_one_is_kept() -> None:
-    pool = Pool(network())
+    pool = Pool(network(), 10)
     for trail in ((0, 2, 1, 3), (0, 1, 2, 3), (3, 1, 2, 0)):
         pool.add([trail])
     routes = pool.routes()
@@ -23,7 +23,7 @@ def test_of_two_orders_the_faster_one_is_kept() -> None:
 
 
 def test_routes_lie_side_by_side_where_places_says() -> None:
-    pool = Pool(network())
+    pool = Pool(network(), 10)
     pool.add([(0,), (), (1, 2)])
     routes = pool.routes()
     assert routes.first.tolist() == [0, 1, 1, 3]
@@ -31,12 +31,12 @@ def test_routes_lie_side_by_side_where_places_says() -> None:
 
 
 def test_the_oldest_leave_a_full_pool() -> None:
-    pool = Pool(network(110))
-    pairs = [(i, j) for i in range(110) for j in range(i)]
-    pool.add(pairs[:CAPACITY])
+    pool = Pool(network(9), 30)
+    pairs = [(i, j) for i in range(9) for j in range(i)]
+    pool.add(pairs[:30])
     pool.add([pairs[0]])
-    pool.add(pairs[CAPACITY : CAPACITY + 1])
+    pool.add(pairs[30:31])
     routes = pool.routes()
-    assert len(pool) == CAPACITY
+    assert len(pool) == 30
     assert routes.trail(0) == pairs[2]
-    assert routes.trail(CAPACITY - 2) == pairs[0]
+    assert routes.trail(28) == pairs[0]
