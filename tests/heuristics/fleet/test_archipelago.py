@@ -49,11 +49,12 @@ def test_the_best_routes_stay_known_when_pools_are_full(monkeypatch: pytest.Monk
     rng = np.random.default_rng(8)
     islands = Archipelago.around(Plan.empty(2), random_network(rng), 0.01, rng)
     with crew(1) as for_each:
-        for part in np.linspace(0.0, 1.0, 300):
-            islands.run(50, part, for_each)
-    assert islands.round == ROUNDS - 1
+        islands.run(50, 0.0, for_each)
+        for pool in islands.pools:
+            pool.add((i, j) for i in range(10) for j in range(i))
+        islands.run(50, 1.0, for_each)
+    assert len(islands.pools) == 1
     assert islands.objective > 0.0
-    assert len(islands.pools[0]) == 2 * len(archipelago.MANNERS) * 2  # full
 
 
 def test_one_island_starts_from_the_plan_and_the_others_from_nothing() -> None:
