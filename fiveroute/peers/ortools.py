@@ -6,7 +6,8 @@ each AUV to its budget. The objective is coarse distance plus the prizes left ou
 What makes it strong here: guided local search punishes arcs in proportion to what they cost, so
 prizes that dwarf the arcs leave it without effect. Mean prizes of a few legs do best, with far
 heavier punishments than the usual ones; the cheapest arcs make a better start than insertions,
-which take what is near.
+which take what is near. Nodes that nobody can visit in time do not count in the mean, and an AUV
+that visits nothing pays for its way like the others: else it is cheapest to stay ashore.
 
 References
 ----------
@@ -66,6 +67,8 @@ def plan(problem: TeamOrienteering, limits: Limits, seed: int = 0) -> Plan | Non
     routing.AddDimensionWithVehicleCapacity(duration, 0, times.budgets.tolist(), True, "time")
     for node, prize in enumerate(_prizes(problem)[1:-1], start=1):
         routing.AddDisjunction([nodes.NodeToIndex(node)], prize)
+    for auv in range(fleet):
+        routing.SetVehicleUsedWhenEmpty(True, auv)
     found = routing.SolveWithParameters(_parameters(clock))
     if found is None:
         return None
@@ -73,7 +76,10 @@ def plan(problem: TeamOrienteering, limits: Limits, seed: int = 0) -> Plan | Non
 
 
 def _prizes(problem: TeamOrienteering) -> list[int]:
-    total, longest = problem.total_profit, float(problem.budgets.max())
+    longest = float(problem.budgets.max())
+    detours = problem.travel[0] + problem.service + problem.travel[:, problem.destination]
+    is_near = (detours <= longest) & (problem.profit > 0.0)
+    total = float(problem.profit[is_near].sum())
     worth = _MEAN_PRIZE * _DISTANCE * float(problem.budgets.sum())
     scale = worth / (longest * total) if longest > 0.0 and total > 0.0 else 0.0
     prizes: list[int] = np.rint(scale * problem.profit).astype(np.int64).tolist()
