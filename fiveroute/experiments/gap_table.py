@@ -1,7 +1,8 @@
 """How far from optimal, over many instances: the summary of a gap table, and the table itself.
 
 Solvers are compared by their shortfall, (best known - value) / best known. Who has no answer, or
-one that the judge rejects, has collected nothing: a shortfall of 1.
+one that the judge rejects, has collected nothing: a shortfall of 1, unless there is nothing to
+collect.
 """
 
 from __future__ import annotations
@@ -133,9 +134,9 @@ def shortfalls(rows: Sequence[GapRow]) -> dict[str, list[float]]:
 
 
 def _shortfall(value: float | None, best: float | None) -> float:
-    if value is None or best is None:
-        return 1.0
-    return max(best - value, 0.0) / best if best > 0.0 else 0.0
+    if best == 0.0:
+        return 0.0
+    return 1.0 if value is None or best is None else max(best - value, 0.0) / best
 
 
 def _solver(name: str, rows: Sequence[GapRow], missed: Sequence[float]) -> SolverSummary:

@@ -48,7 +48,10 @@ def test_summary_of_rows_without_bounds_has_no_gap() -> None:
 
 
 def test_nothing_to_collect_is_no_shortfall() -> None:
-    assert summarise([row(heuristic=0.0, best_known=0.0, gap=0.0)]).mean_gap_to_best_known == 0.0
+    nothing = {"vroom": PeerAnswer(None, "no_solution", 2.0)}
+    rows = [row(heuristic=0.0, best_known=0.0, gap=0.0, peers=nothing)]
+    assert summarise(rows).mean_gap_to_best_known == 0.0
+    assert shortfalls(rows)["vroom"] == [0.0]
 
 
 def test_an_empty_table_has_an_empty_summary() -> None:
