@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from fiveroute.vehicle_files import Choices
     from fiveroute.verdict import Verdict
 
-__all__ = ["FleetPlan", "plan", "read", "read_plan", "sail", "solve"]
+__all__ = ["FleetPlan", "plan", "reachable_routes", "read", "read_plan", "sail", "solve"]
 
 _SHARE_OF_PATHS = 0.5
 """Share of a time limit that planning the paths may take."""
@@ -307,13 +307,13 @@ def read_plan(path: str | PathLike[str], *, limits: Limits | float | None = None
     filed.require_currents(file.parent)
     mission = _with_full_name(filed.instance, file)
     voyage = sail(mission, straight_lines=filed.paths is None, limits=Limits.of(limits))
-    vertices = {node.id: vertex for vertex, node in enumerate(voyage.instance.nodes, start=1)}
-    strange = [name for route in filed.routes for name in route if name not in vertices]
+    known = {node.id for node in voyage.instance.nodes}
+    strange = [name for route in filed.routes for name in route if name not in known]
     if strange:
         raise InputError(
             "is no node that an AUV can reach", file=file, field="routes", value=strange[0]
         )
-    routes = Plan.of([vertices[name] for name in route] for route in filed.routes)
+    routes = reachable_routes(filed, voyage)
     problem = voyage.instance.problem(len(filed.routes), voyage.travel)
     if violations := check(problem, routes):
         raise InputError(f"{violations[0]}; plan it anew", file=file, field="routes")
@@ -321,6 +321,12 @@ def read_plan(path: str | PathLike[str], *, limits: Limits | float | None = None
         filed.method, filed.status, routes, filed.objective, filed.bound, 0.0, filed.seed
     )
     return FleetPlan(voyage, problem, _known(voyage, result))
+
+
+def reachable_routes(filed: PlanFile, voyage: Voyage) -> Plan:
+    """The routes of a plan file over the nodes that can be reached."""
+    vertex = {node.id: k for k, node in enumerate(voyage.instance.nodes, start=1)}
+    return Plan.of([vertex[name] for name in route if name in vertex] for route in filed.routes)
 
 
 def _with_full_name(instance: Instance, source: Path) -> Instance:

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from fiveroute.errors import InputError
-from fiveroute.fleet_plan import FleetPlan, sail
+from fiveroute.fleet_plan import FleetPlan, reachable_routes, sail
 from fiveroute.instance import Instance
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.paths.voyage import Voyage
@@ -110,7 +110,7 @@ def prepare(
         seed=seed,
         progress=progress,
     )
-    routes = None if filed is None else _routes(filed, voyage)
+    routes = None if filed is None else reachable_routes(filed, voyage)
     if routes is not None:
         if fleet_size not in (None, len(routes.routes)):
             raise InputError(
@@ -221,9 +221,3 @@ def simulate(
         limits=clock.rest(),
         progress=progress,
     )
-
-
-def _routes(filed: PlanFile, voyage: Voyage) -> Plan:
-    """The routes of a plan file over the nodes that can be reached."""
-    vertex = {node.id: k for k, node in enumerate(voyage.instance.nodes, start=1)}
-    return Plan.of([vertex[name] for name in route if name in vertex] for route in filed.routes)
