@@ -37,7 +37,17 @@ from fiveroute.sea.course import Course, Outlook, Stops, in_hand
 from fiveroute.sea.discarding import discard
 from fiveroute.sea.replanning import TRIALS, cheapest_place, replan
 
-__all__ = ["SKIPS", "expected_route", "look_ahead", "next_stop", "reconsider", "with_recourse"]
+__all__ = [
+    "SKIPS",
+    "expected_route",
+    "gain_of",
+    "gains",
+    "look_ahead",
+    "next_stop",
+    "reconsider",
+    "toll_home",
+    "with_recourse",
+]
 
 SKIPS = 4
 """Nodes after a vertex among which an AUV chooses the next; home is always a choice."""
@@ -125,20 +135,20 @@ def look_ahead(view: Outlook, stops: Stops, length: int, values: NDArray[np.floa
         for g in range(len(gain)):
             here[g] = -view.price * view.late[stops[at], g]
         for to in range(at + 1, min(at + 1 + SKIPS, length - 1)):
-            _go_on(view, stops[at], stops[to], values[to], gain)
+            gains(view, stops[at], stops[to], values[to], gain)
             for g in range(len(gain)):
                 here[g] = max(here[g], gain[g])
 
 
 @kernel
-def _go_on(
+def gains(
     view: Outlook,
     i: int,
     j: int,
     after: NDArray[np.float64],
     gain: NDArray[np.float64],
 ) -> None:
-    """Fill in what it is worth to sail from i to j, for every time left.
+    """Fill in what it is worth to sail from i to j, where V is `after`, for every time left.
 
     A leg that takes longer than all times left is as late as one that takes just longer.
     """
@@ -179,18 +189,30 @@ def next_stop(
     values: NDArray[np.float64],
 ) -> tuple[int, float]:
     """Position of the stop after stops[at] with `left` seconds left, and V there."""
-    i, home, price = stops[at], length - 1, view.price
-    best = home
-    worth = -price * (_between(view.late[i], left / view.step, 1.0) if left >= 0.0 else 1.0)
-    for to in range(at + 1, min(at + 1 + SKIPS, home)):
-        j, deviation = stops[to], math.sqrt(view.variance[i, stops[to]])
-        gain = view.profit[j]
-        for k in range(len(_POINTS)):
-            then = left - max(view.legs[i, j] + deviation * _POINTS[k], 0.0)
-            gain += _WEIGHTS[k] * _between(values[to], then / view.step, price)
+    best, worth = length - 1, -toll_home(view, stops[at], left)
+    for to in range(at + 1, min(at + 1 + SKIPS, length - 1)):
+        gain = gain_of(view, stops[at], stops[to], left, values[to])
         if gain > worth:
             best, worth = to, gain
     return best, worth
+
+
+@kernel
+def toll_home(view: Outlook, i: int, left: float) -> float:
+    """What it costs to set out for home from i with `left` seconds left: the risk to be late."""
+    if left < 0.0:
+        return view.price
+    return view.price * _between(view.late[i], left / view.step, 1.0)
+
+
+@kernel
+def gain_of(view: Outlook, i: int, j: int, left: float, after: NDArray[np.float64]) -> float:
+    """What it is worth to sail from i to j with `left` seconds left."""
+    deviation, gain = math.sqrt(view.variance[i, j]), view.profit[j]
+    for k in range(len(_POINTS)):
+        then = left - max(view.legs[i, j] + deviation * _POINTS[k], 0.0)
+        gain += _WEIGHTS[k] * _between(after, then / view.step, view.price)
+    return float(gain)
 
 
 @kernel
