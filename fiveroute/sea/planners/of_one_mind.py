@@ -27,4 +27,5 @@ class OfOneMind(AllKnowing):
         self.idle.difference_update(award.node for award in awards)
         for m, course in zip(active, courses, strict=True):
             self.set_route(m, t, course.route)
+        self.replan(auv, t, ())  # what it won are options like all others
         return self.depart(auv)
