@@ -22,13 +22,13 @@ from itertools import permutations
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.heuristics.randomness import RandomState, random_state
 from fiveroute.heuristics.tour.crossover import Population, crossover, start_population
 from fiveroute.heuristics.tour.graph import Graph, giant_graph, route_of, tour_cost
 from fiveroute.heuristics.tour.greedy import greedy_tour
 from fiveroute.heuristics.tour.local_search import improve, start_search
 from fiveroute.limits import Clock, Limits, Progress, ProgressCallback
 from fiveroute.problem import TeamOrienteering
+from fiveroute.randomness import RandomState, random_state
 from fiveroute.routes import Route
 
 __all__ = ["ROUTES", "giant_routes"]

@@ -21,7 +21,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.heuristics.randomness import RandomState, uniform
 from fiveroute.heuristics.route_kernels import (
     Case,
     Stops,
@@ -33,6 +32,7 @@ from fiveroute.heuristics.route_kernels import (
     shorten,
 )
 from fiveroute.kernels import kernel
+from fiveroute.randomness import RandomState, uniform
 
 __all__ = ["cheapest_places", "rebirth"]
 

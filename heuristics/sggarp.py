@@ -22,13 +22,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.heuristics.randomness import RandomState, below, random_state, uniform
 from fiveroute.heuristics.rebirth import rebirth
 from fiveroute.heuristics.route_kernels import Case, Stops, collected, duration, in_time
 from fiveroute.heuristics.variation import crossover, mutate, random_route
 from fiveroute.kernels import kernel
 from fiveroute.limits import Clock, Limits
 from fiveroute.problem import TeamOrienteering
+from fiveroute.randomness import RandomState, below, random_state, uniform
 from fiveroute.routes import Route
 from fiveroute.sampling import SampledLegs
 

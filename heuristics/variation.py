@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.heuristics.randomness import RandomState, below
 from fiveroute.heuristics.route_kernels import Stops, cheapest_place, remove, shift_in
 from fiveroute.kernels import kernel
+from fiveroute.randomness import RandomState, below
 
 __all__ = ["crossover", "mutate", "random_route"]
 

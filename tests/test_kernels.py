@@ -49,7 +49,7 @@ def test_kernels_are_kept_in_a_folder_of_their_source() -> None:
 
 def test_the_source_of_a_kernel_is_all_that_its_module_imports() -> None:
     used = kernels._imported({"fiveroute.heuristics.variation"})
-    assert {"fiveroute.heuristics.route_kernels", "fiveroute.heuristics.randomness"} <= used
+    assert {"fiveroute.heuristics.route_kernels", "fiveroute.randomness"} <= used
     assert "fiveroute.models.tree_kernels" not in used
     assert all(kernels._source(module) for module in used)
 

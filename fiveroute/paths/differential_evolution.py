@@ -31,10 +31,10 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.heuristics.randomness import RandomState, below, random_state, uniform
 from fiveroute.kernels import kernel
 from fiveroute.limits import Clock
 from fiveroute.paths.path_cost import PathProblem, path_cost
+from fiveroute.randomness import RandomState, below, random_state, uniform
 
 __all__ = [
     "INFEASIBLE",

@@ -15,9 +15,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.heuristics.randomness import RandomState, below, random_state, uniform
 from fiveroute.kernels import kernel
 from fiveroute.limits import Clock
+from fiveroute.randomness import RandomState, below, random_state, uniform
 from fiveroute.routes import Route
 from fiveroute.sea.course import Outlook, Stops
 from fiveroute.sea.recourse import look_ahead, next_stop

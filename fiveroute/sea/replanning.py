@@ -18,8 +18,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.heuristics.randomness import RandomState, below, uniform
 from fiveroute.kernels import kernel
+from fiveroute.randomness import RandomState, below, uniform
 from fiveroute.sea.course import Course, Outlook, Stops, time_in_hand
 from fiveroute.sea.discarding import discard
 

@@ -20,8 +20,8 @@ from fiveroute.heuristics.fleet.chains import NEXT, measure, undo
 from fiveroute.heuristics.fleet.insertion import insert_nodes
 from fiveroute.heuristics.fleet.network import Floats, Ints
 from fiveroute.heuristics.fleet.removal import remove_strings
-from fiveroute.heuristics.randomness import RandomState, below, uniform
 from fiveroute.kernels import kernel
+from fiveroute.randomness import RandomState, below, uniform
 
 __all__ = ["BEST_PROFIT", "BEST_TIME", "PROFIT", "anneal"]
 

@@ -24,7 +24,7 @@ from fiveroute.heuristics.fleet.island import Island
 from fiveroute.heuristics.fleet.network import Network, Trail, trails_in
 from fiveroute.heuristics.fleet.route_pool import Pool
 from fiveroute.heuristics.fleet.schedule import stage
-from fiveroute.heuristics.randomness import random_state
+from fiveroute.randomness import random_state
 from fiveroute.routes import Plan, Route
 
 __all__ = ["Archipelago"]

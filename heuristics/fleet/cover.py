@@ -17,8 +17,8 @@ from __future__ import annotations
 import numpy as np
 
 from fiveroute.heuristics.fleet.network import Floats, Ints
-from fiveroute.heuristics.randomness import RandomState, below
 from fiveroute.kernels import kernel
+from fiveroute.randomness import RandomState, below
 
 __all__ = ["improve_cover"]
 

@@ -13,8 +13,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from fiveroute.heuristics.fleet.network import Floats, Ints, Network, Trail
-from fiveroute.heuristics.randomness import RandomState, uniform
 from fiveroute.kernels import kernel
+from fiveroute.randomness import RandomState, uniform
 
 __all__ = ["fill_empty_routes", "fresh_route"]
 

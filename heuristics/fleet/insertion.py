@@ -16,8 +16,8 @@ import numpy as np
 
 from fiveroute.heuristics.fleet.chains import NEXT, PREVIOUS, ROUTE, put_in
 from fiveroute.heuristics.fleet.network import Floats, Ints
-from fiveroute.heuristics.randomness import RandomState, uniform
 from fiveroute.kernels import kernel
+from fiveroute.randomness import RandomState, uniform
 
 __all__ = ["cheapest_place", "insert_nodes", "sort_descending"]
 

@@ -13,7 +13,7 @@ from fiveroute.heuristics.fleet.cover import improve_cover
 from fiveroute.heuristics.fleet.fresh_route import fresh_route
 from fiveroute.heuristics.fleet.network import Floats, Ints, Network, Trail
 from fiveroute.heuristics.fleet.route_pool import PooledRoutes
-from fiveroute.heuristics.randomness import RandomState, below
+from fiveroute.randomness import RandomState, below
 
 __all__ = ["Island"]
 

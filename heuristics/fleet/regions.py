@@ -21,7 +21,7 @@ from fiveroute.heuristics.fleet.fresh_route import fill_empty_routes
 from fiveroute.heuristics.fleet.island import Island
 from fiveroute.heuristics.fleet.network import Ints, Network, Trail, part_of, trails_in
 from fiveroute.heuristics.fleet.schedule import COLD, HOT
-from fiveroute.heuristics.randomness import random_state
+from fiveroute.randomness import random_state
 from fiveroute.routes import Plan, Route
 
 __all__ = ["Regions", "divide"]

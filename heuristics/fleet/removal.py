@@ -15,8 +15,8 @@ import numpy as np
 
 from fiveroute.heuristics.fleet.chains import NEXT, PREVIOUS, ROUTE, take_out
 from fiveroute.heuristics.fleet.network import Floats, Ints
-from fiveroute.heuristics.randomness import RandomState, below, uniform
 from fiveroute.kernels import kernel
+from fiveroute.randomness import RandomState, below, uniform
 
 __all__ = ["remove_strings"]
 

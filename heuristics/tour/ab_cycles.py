@@ -13,9 +13,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.heuristics.randomness import RandomState, below
 from fiveroute.heuristics.tour.exchange import Cycles, Tour
 from fiveroute.kernels import kernel
+from fiveroute.randomness import RandomState, below
 
 __all__ = ["ab_cycles"]
 

@@ -23,7 +23,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.heuristics.randomness import RandomState, below
 from fiveroute.heuristics.tour.ab_cycles import ab_cycles
 from fiveroute.heuristics.tour.diversity import (
     EdgeCount,
@@ -44,6 +43,7 @@ from fiveroute.heuristics.tour.exchange import (
 from fiveroute.heuristics.tour.graph import Graph, edge_cost, tour_cost
 from fiveroute.heuristics.tour.subtours import label_segments, segment_at, unite
 from fiveroute.kernels import kernel
+from fiveroute.randomness import RandomState, below
 
 __all__ = ["CHILDREN", "Population", "crossover", "start_population"]
 

@@ -4,9 +4,9 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fiveroute.heuristics.randomness import random_state
 from fiveroute.heuristics.rebirth import cheapest_places, rebirth
 from fiveroute.heuristics.route_kernels import Case, cheapest_place, collected, duration, in_time
+from fiveroute.randomness import random_state
 
 NO_SAMPLES = np.empty((1, 1, 0))
 

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fiveroute.heuristics.randomness import random_state
 from fiveroute.heuristics.variation import crossover, mutate, random_route
+from fiveroute.randomness import random_state
 
 
 def random_legs(n: int, seed: int) -> np.ndarray:

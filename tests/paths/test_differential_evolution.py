@@ -3,7 +3,6 @@ import math
 import numpy as np
 import pytest
 
-from fiveroute.heuristics.randomness import random_state
 from fiveroute.limits import Limits
 from fiveroute.ocean.barriers import no_barriers
 from fiveroute.ocean.current_grid import Region, grid_current
@@ -22,6 +21,7 @@ from fiveroute.paths.differential_evolution import (
 )
 from fiveroute.paths.legs import Waters
 from fiveroute.paths.path_cost import PathProblem, path_cost, path_problem
+from fiveroute.randomness import random_state
 
 REGION = Region(-500.0, -2000.0, 4500.0, 2000.0)
 START, GOAL = np.array([0.0, 0.0]), np.array([3600.0, 1500.0])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fiveroute.heuristics.fleet.cover import improve_cover
-from fiveroute.heuristics.randomness import random_state
+from fiveroute.randomness import random_state
 
 
 def collected(profit: np.ndarray, routes: list[list[int]]) -> float:

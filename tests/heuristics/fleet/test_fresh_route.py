@@ -4,8 +4,8 @@ import pytest
 from fiveroute.heuristics.fleet.chains import duration
 from fiveroute.heuristics.fleet.fresh_route import fill_empty_routes, fresh_route
 from fiveroute.heuristics.fleet.network import build_network
-from fiveroute.heuristics.randomness import random_state
 from fiveroute.problem import TeamOrienteering
+from fiveroute.randomness import random_state
 
 
 @pytest.mark.parametrize("seed", range(10))

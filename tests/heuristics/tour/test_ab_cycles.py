@@ -6,9 +6,9 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fiveroute.heuristics.randomness import random_state
 from fiveroute.heuristics.tour.ab_cycles import ab_cycles
 from fiveroute.heuristics.tour.exchange import Tour
+from fiveroute.randomness import random_state
 
 
 def edges_of(order: np.ndarray) -> set[frozenset[int]]:

@@ -5,13 +5,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fiveroute.heuristics.randomness import random_state
 from fiveroute.heuristics.tour.crossover import crossover, start_population
 from fiveroute.heuristics.tour.diversity import count_edges, multiplicity
 from fiveroute.heuristics.tour.graph import giant_graph, tour_cost
 from fiveroute.heuristics.tour.greedy import greedy_tour
 from fiveroute.limits import Limits
 from fiveroute.problem import TeamOrienteering
+from fiveroute.randomness import random_state
 
 
 @settings(deadline=None, max_examples=40)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fiveroute.heuristics.randomness import below, random_state, uniform
+from fiveroute.randomness import below, random_state, uniform
 
 
 def test_the_published_sequence() -> None:
