@@ -189,11 +189,7 @@ def plan_mission(
                 progress=steps.relay,
                 remember=known.extend,
             )
-        result = _with_bound(problem, plan, known, bound, steps)
-        if search == "paper" and bound == "quick":
-            result = Result.judged(
-                problem, plan, method=bound, seconds=result.seconds, bound=result.bound
-            )
+        result = _with_bound(problem, plan, known, bound, steps, fixed=search == "paper")
     return MissionPlan(
         instance,
         problem,
@@ -274,8 +270,13 @@ def _with_bound(
     routes: Sequence[Route],
     bound: Bounding,
     steps: _Steps,
+    *,
+    fixed: bool,
 ) -> Result:
-    """The plan, or a better one that came with the bound on what any plan can collect."""
+    """The plan, or a better one that came with the bound on what any plan can collect.
+
+    A quick bound leaves a fixed plan as it is, an exact one may not.
+    """
     clock = steps.clock
     if bound == "none":
         return Result.judged(problem, plan, method=bound, seconds=clock.seconds)
@@ -291,4 +292,6 @@ def _with_bound(
     if bound == "quick":
         limits, method = replace(limits, work=_QUICK_WORK * problem.n**2), "branch-price"
     result = solve(problem, method, limits, warm_start=plan, routes=routes, progress=steps.relay)
+    if fixed and bound == "quick":
+        result = Result.judged(problem, plan, method=bound, seconds=0.0, bound=result.bound)
     return replace(result, seconds=clock.seconds)
