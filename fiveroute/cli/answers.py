@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from fiveroute.cli.words import clock
 from fiveroute.instance import Instance
 from fiveroute.result import GiantRouteResult, Status
 from fiveroute.routes import Route
@@ -148,7 +149,7 @@ def print_path(answer: Mapping[str, Any]) -> None:
         return
     click.echo(where)
     figures = [
-        ("duration", f"{_clock(answer['duration'])} ({answer['duration']:.1f} s)"),
+        ("duration", f"{clock(answer['duration'])} ({answer['duration']:.1f} s)"),
         ("waypoints", str(len(answer["waypoints"]))),
         ("tightest turn", _radius(answer["max_curvature"])),
     ]
@@ -293,7 +294,7 @@ def print_json(answer: Mapping[str, Any]) -> None:
 def print_routes(answer: Mapping[str, Any]) -> None:
     """Print a plan for people: a row an AUV, and the figures that matter."""
     rows = [
-        (f"AUV {auv}", len(route), _clock(duration), " ".join(route) or "straight home")
+        (f"AUV {auv}", len(route), clock(duration), " ".join(route) or "straight home")
         for auv, (route, duration) in enumerate(
             zip(answer["routes"], answer["durations"], strict=True), start=1
         )
@@ -306,7 +307,7 @@ def print_routes(answer: Mapping[str, Any]) -> None:
 def print_giant_route(answer: Mapping[str, Any]) -> None:
     """Print a giant route for people."""
     click.echo(" ".join(answer["order"]))
-    click.echo(f"{'duration':<16}{answer['duration']:.10g} ({_clock(answer['duration'])})")
+    click.echo(f"{'duration':<16}{answer['duration']:.10g} ({clock(answer['duration'])})")
     if answer["bound"] is not None:
         click.echo(f"{'proven bound':<16}{answer['bound']:.10g}")
     click.echo(f"{'optimality gap':<16}{gap_text(answer['gap'])}")
@@ -335,14 +336,6 @@ def _figures(answer: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     yield "optimality gap", gap_text(answer["gap"])
     if answer.get("fleet_estimate") is not None:
         yield "fleet estimate", f"{answer['fleet_estimate']:.2f} AUVs"
-
-
-def _clock(seconds: float) -> str:
-    """Seconds as h:mm:ss where they are at least a minute."""
-    if seconds < 60.0:
-        return f"{seconds:.4g} s"
-    minutes, rest = divmod(round(seconds), 60)
-    return f"{minutes // 60}:{minutes % 60:02d}:{rest:02d}"
 
 
 def print_table(

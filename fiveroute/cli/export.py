@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from fiveroute.cli import options
+from fiveroute.cli.words import clock, counted
 
 __all__ = ["command"]
 
@@ -98,10 +99,10 @@ def command(
     )
     mission = export_plan(read_plan(plan), plan, format_name, output, choices, force)
     for vehicle in mission.vehicles:
-        stays = sum(point.kind == "node" for point in vehicle.waypoints)
-        last = vehicle.waypoints[-1]
+        nodes = sum(point.kind == "node" for point in vehicle.waypoints)
+        home = clock(vehicle.waypoints[-1].arrival)
         click.echo(
-            f"{vehicle.name}: {len(vehicle.waypoints)} waypoints, {stays} nodes, "
-            f"{last.arrival:.1f} s",
+            f"{vehicle.name}: {counted(nodes, 'node')}, "
+            f"{counted(len(vehicle.waypoints), 'waypoint')}, home after {home}",
             err=True,
         )

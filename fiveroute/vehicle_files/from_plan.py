@@ -1,33 +1,28 @@
 """From a plan in metres to a mission on Earth.
 
-The waypoints of an AUV are those of its filed paths, thinned out to a tolerance: whatever is
-left out lies within it of the straight line between its neighbours. A leg that would cut a
-corner of land or of an obstacle when thinned out keeps all of its waypoints, and so does an AUV
-that would come home too late. Without paths the AUVs sail straight from node to node. They leave
-and arrive at the surface, cruise at one depth, and visit a node at its own depth if it states one.
+The waypoints of an AUV are those of its filed paths, thinned out (`safe_tracks`). Without paths the
+AUVs sail straight from node to node. They leave and arrive at the surface, cruise at one depth, and
+visit a node at its own depth if it states one.
 """
 
 from __future__ import annotations
 
-import itertools
-import math
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.check_paths import check_paths, sailing_time
+from fiveroute.check_paths import sailing_time
 from fiveroute.errors import InputError
 from fiveroute.formats.plan_file import PlanFile
 from fiveroute.instance import Circle, Instance, Polygon
 from fiveroute.ocean.currents import Current
 from fiveroute.ocean.local_plane import LocalPlane
 from fiveroute.ocean.stated import stated_current
-from fiveroute.paths.thinning import thinned
 from fiveroute.vehicle_files.mission import (
     Kind,
     Mission,
@@ -37,7 +32,8 @@ from fiveroute.vehicle_files.mission import (
     Waypoint,
     Zone,
 )
-from fiveroute.vehicle_files.safety import require_depths, require_feasible, require_passable
+from fiveroute.vehicle_files.safe_tracks import safe_tracks
+from fiveroute.vehicle_files.safety import require_depths
 
 __all__ = ["TOLERANCE", "Choices", "mission_of"]
 
@@ -107,7 +103,7 @@ def mission_of(filed: PlanFile, folder: Path, choices: Choices) -> Mission:
     names = _names(len(filed.routes), choices.names)
     filed.require_currents(folder)
     current = stated_current(instance, folder)
-    tracks = _safe_tracks(filed, folder, current, choices.tolerance)
+    tracks = safe_tracks(filed, folder, current, choices.tolerance)
     vehicles = tuple(
         Vehicle(name, tuple(_waypoints(filed, auv, tracks[auv], current, plane, depth)))
         for auv, name in enumerate(names)
@@ -124,56 +120,6 @@ def mission_of(filed: PlanFile, folder: Path, choices: Choices) -> Mission:
         speed=instance.fleet.speed,
         depth_rating=instance.fleet.depth_rating,
         departure=_departure(instance, choices.departure),
-    )
-
-
-def _safe_tracks(
-    filed: PlanFile, folder: Path, current: Current, tolerance: float
-) -> list[list[Floats]]:
-    """The paths of all legs, thinned out where that is safe."""
-    sailed = filed if filed.paths is not None else replace(filed, paths=_straight(filed))
-    tracks = sailed.tracks
-    assert tracks is not None
-    require_passable(filed, tracks, current)
-    require_feasible(sailed, folder)
-    thin = [[thinned(path, tolerance) for path in paths] for paths in tracks]
-    destination = len(filed.instance.nodes) + 1
-    for fault in check_paths(filed.instance, filed.plan, thin, current):
-        assert fault.auv is not None
-        stops = (*filed.plan.routes[fault.auv], destination)
-        leg = stops.index(fault.node)
-        thin[fault.auv][leg] = tracks[fault.auv][leg]
-    for auv, route in enumerate(filed.plan.routes):
-        if _time_out(filed.instance, route, thin[auv], current) > _endurance(filed.instance, auv):
-            thin[auv] = tracks[auv]
-    require_passable(filed, thin, current)
-    return thin
-
-
-def _time_out(
-    instance: Instance, route: Sequence[int], paths: Sequence[Floats], current: Current
-) -> float:
-    """Seconds that an AUV takes for its paths and its nodes."""
-    sailed = sum(sailing_time(path, current, instance.fleet.speed) for path in paths)
-    return sailed + float(instance.service_times[list(route)].sum())
-
-
-def _endurance(instance: Instance, auv: int) -> float:
-    endurance = instance.fleet.endurance
-    if isinstance(endurance, tuple):
-        return endurance[auv]
-    return math.inf if endurance is None else endurance
-
-
-def _straight(filed: PlanFile) -> tuple[tuple[tuple[tuple[float, float], ...], ...], ...]:
-    """The straight legs of a plan without paths."""
-    places = [(x, y) for x, y in filed.instance.points.tolist()]
-    return tuple(
-        tuple(
-            (places[tail], places[head])
-            for tail, head in itertools.pairwise((0, *route, len(places) - 1))
-        )
-        for route in filed.plan.routes
     )
 
 

@@ -28,7 +28,7 @@ def test_every_format_is_written(call: Any, plan: Path, tmp_path: Path, name: st
     target = tmp_path / "out"
     answer = call("export", plan, "--to", name, "--output", target, "--depart", "2026-06-01T06:00")
     assert (answer.code, answer.out) == (0, "")
-    assert "auv-1: 4 waypoints, 2 nodes, 33.5 s" in answer.err
+    assert "auv-1: 2 nodes, 4 waypoints, home after 33.5 s" in answer.err
     assert target.exists()
     again = call("export", plan, "--to", name, "--output", target)
     assert (again.code, again.err.count("\n")) == (2, 1)

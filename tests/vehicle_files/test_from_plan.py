@@ -25,6 +25,8 @@ from fiveroute.instance import (
     Uniform,
     Vortex,
 )
+from fiveroute.ocean.obstacles import barriers_of
+from fiveroute.paths.legs import track_clearance
 from fiveroute.result import Status
 from fiveroute.vehicle_files.from_plan import Choices, mission_of
 from fiveroute.vehicle_files.mission import Mission
@@ -115,6 +117,24 @@ def test_a_leg_that_would_cut_a_corner_keeps_its_waypoints() -> None:
     coast = replace(BAY, ocean=Ocean(land=(wall,)))
     points = mission(filed(coast, ((hugging, *PATHS[0][1:]),))).vehicles[0].waypoints
     assert [(p.x, p.y) for p in points[1:4]] == list(hugging[1:4])
+
+
+@pytest.mark.parametrize("margin", [0.0, 15.0])
+def test_only_the_cape_keeps_many_waypoints(margin: float) -> None:
+    """A long wavy way that touches a rock: off the rock it is thinned as if there were none."""
+    x = np.arange(0.0, 1001.0, 5.0)
+    bow = 100.1 + margin - (x - 500.0) ** 2 / 600.0
+    wavy = np.column_stack((x, np.maximum(bow, 3.0 * np.sin(x / 20.0))))
+    wavy[[0, -1]] = (0.0, 0.0), (1000.0, 0.0)
+    sea = replace(BAY, ocean=Ocean(obstacles=(ROCK,), margin=margin))
+    plan = filed(sea, ((tuple(map(tuple, wavy.tolist())), *PATHS[0][1:]),))
+    points = mission(plan, tolerance=20.0).vehicles[0].waypoints
+    leg = np.array([(p.x, p.y) for p in points[: [p.kind for p in points].index("node") + 1]])
+    far = np.abs(leg[:, 0] - 500.0) > 100.0
+    assert far.sum() <= 6
+    assert far.sum() < len(leg) <= 20
+    barriers = barriers_of(sea.ocean, margin=margin)
+    assert track_clearance(barriers, leg) >= min(0.0, track_clearance(barriers, wavy))
 
 
 def test_an_auv_that_would_come_home_too_late_keeps_its_waypoints() -> None:
