@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from fiveroute.cli import options
+from fiveroute.cli.notes import note
+from fiveroute.cli.words import counted
 
 if TYPE_CHECKING:
     from fiveroute.instance import Instance
@@ -84,9 +86,11 @@ def command(
     from fiveroute.formats.files import read_text
 
     chart = survey_format(file, read_text(file)) if source_format is None else source_format
+    found = ""
     if chart in _CHARTS:
         # a name of currents is relative to the folder of the call, whatever that of the chart
         mission, source = _charted(file, chart, zones, terms), Path("chart")
+        found = _found(mission)
     else:
         stated = [name for name, value in {**terms, "zones": zones}.items() if value is not None]
         if stated:
@@ -95,6 +99,23 @@ def command(
             )
         mission, source = read_instance(file, source_format), file
     write_instance(mission, output, target_format, force, source=source)
+    if found:
+        note(f"{output}: {found}")
+
+
+def _found(mission: Instance) -> str:
+    """What a chart has become, so that whoever made it sees what was not understood."""
+    import numpy as np
+
+    size = " by ".join(f"{span / 1e3:.3g}" for span in np.ptp(mission.points, axis=0))
+    zones = len(mission.ocean.obstacles) + len(mission.ocean.land)
+    data = f"data {mission.total_data:.6g} in all"
+    if all(node.data == 1.0 for node in mission.nodes):
+        data = "each counts 1 as data"
+    return (
+        f"{counted(len(mission.nodes), 'node')} ({data}) in {size} km, "
+        f"{counted(zones, 'zone')} to keep out of"
+    )
 
 
 def _charted(file: Path, chart: str | None, zones: Path | None, terms: dict[str, Any]) -> Instance:

@@ -39,9 +39,9 @@ _OBSTACLES = ("", "obstacle", "zone", "exclusion")
 def fields_of(names: Iterable[str]) -> dict[str, str]:
     """Which names of columns or properties are ours, each by what it holds.
 
-    Names differ by capitals, signs and SI units in brackets without meaning anything else. Foreign
-    ones are left alone, unless they look like a slip of the keyboard. Of several names of a
-    node the first in the order of `_SPELLINGS` is its id.
+    Names differ by capitals, signs and SI units in brackets without meaning anything else; data are
+    in any unit. Foreign ones are left alone, unless they look like a slip of the keyboard. Of
+    several names of a node the first in the order of `_SPELLINGS` is its id.
 
     Raises
     ------
@@ -68,9 +68,10 @@ def _fields_of(names: tuple[str, ...]) -> dict[str, str]:
 
 
 def _bare(name: str) -> str:
-    """A name without signs and SI units."""
+    """A name without signs and units: those of ours, and all those of data."""
     word = re.sub(r"[(\[](m|s|deg|degrees|°)[)\]]\s*$", "", name.strip().lower())
-    return re.sub(r"[^0-9a-z]", "", word)
+    of_data = re.sub(r"[^0-9a-z]", "", re.sub(r"[(\[][^()\[\]]*[)\]]\s*$", "", word))
+    return of_data if _FIELDS.get(of_data) == "data" else re.sub(r"[^0-9a-z]", "", word)
 
 
 def _rank(bare: str) -> int:

@@ -1,18 +1,26 @@
 """Nodes from a table: a spreadsheet saved as CSV, with commas, semicolons or tabs.
 
 The first line names the columns, in any order and in the usual spellings: ``id``; ``lon`` and
-``lat`` in degrees, or ``x`` and ``y`` in metres; and where there are any ``data``,
-``service_time`` in seconds, ``depth`` in metres, positive down, and ``kind``. A row without data
-counts 1. Rows whose kind is ``bend`` are no nodes. Other columns are left alone.
+``lat`` in degrees (`fiveroute.formats.degrees`), or ``x`` and ``y`` in metres; and where there are
+any ``data``, ``service_time`` in seconds, ``depth`` in metres, positive down, and ``kind``. A row
+without data counts 1. Rows whose kind is ``bend`` are no nodes. Other columns are left alone, and
+so are lines above the names that begin with ``#``, or with Excel's ``sep=``.
+
+Where columns are separated by something else, decimals may follow a comma, as half of the world's
+spreadsheets write them. Nothing is guessed: a table whose numbers have points has no decimal
+commas, and 1,234 alone could be a thousand.
 """
 
 from __future__ import annotations
 
 import csv
 import io
+import itertools
+import re
 
 from fiveroute.errors import InputError
 from fiveroute.formats.chart_fields import fields_of, parsed_number, site_of
+from fiveroute.formats.degrees import parsed_degrees
 from fiveroute.formats.survey import Site, Survey
 
 __all__ = ["read"]
@@ -28,33 +36,61 @@ def read(text: str) -> Survey:
     InputError
         If the text is no such table; it names the line.
     """
-    head = text.lstrip("\r\n").partition("\n")[0]
-    delimiter = max(",;\t", key=head.count)
+    body = "".join(itertools.dropwhile(_is_above, text.splitlines(keepends=True)))
+    above = text.count("\n", 0, len(text) - len(body))
+    delimiter = max(",;\t", key=body.partition("\n")[0].count)
     rows = csv.reader(
-        io.StringIO(text, newline=""), delimiter=delimiter, skipinitialspace=True, strict=True
+        io.StringIO(body, newline=""), delimiter=delimiter, skipinitialspace=True, strict=True
     )
-    columns: dict[str, int] = {}
-    geographic = True
-    sites: list[Site] = []
     try:
-        for row in rows:
-            if not any(cell.strip() for cell in row):
-                continue
-            if not columns:
-                columns, geographic = _columns(row, rows.line_num)
-                width = len(row)
-                continue
-            if len(row) != width:
-                raise InputError(
-                    f"has {len(row)} cells, not {width}; quote cells with a {delimiter!r} in them",
-                    line=rows.line_num,
-                )
-            values = {field: _plain(row[column]) for field, column in columns.items()}
-            if values.get("kind", "").strip().lower() != "bend":
-                sites.append(_site(values, geographic, rows.line_num))
+        table = [(above + rows.line_num, row) for row in rows if any(map(str.strip, row))]
     except csv.Error as error:
-        raise InputError(f"is no table: {error}; correct the line", line=rows.line_num) from None
-    return Survey(geographic, tuple(sites))
+        raise InputError(
+            f"is no table: {error}; correct the line", line=above + rows.line_num
+        ) from None
+    if not table:
+        raise InputError("is a table without a line that names its columns; add one at the top")
+    line, head = table[0]
+    columns, geographic = _columns(head, line)
+    for line, row in table[1:]:
+        if len(row) != len(head):
+            raise InputError(
+                f"has {len(row)} cells, not {len(head)}; quote cells with a {delimiter!r} in them",
+                line=line,
+            )
+    found = [
+        (line, {field: _plain(row[column]) for field, column in columns.items()})
+        for line, row in table[1:]
+    ]
+    if delimiter != "," and _has_decimal_commas([values for _, values in found]):
+        for _, values in found:
+            values.update({field: values[field].replace(",", ".") for field in _numbers(values)})
+    return Survey(
+        geographic,
+        tuple(
+            _site(values, geographic, line)
+            for line, values in found
+            if values.get("kind", "").strip().lower() != "bend"
+        ),
+    )
+
+
+def _is_above(line: str) -> bool:
+    """Whether a line stands above the names of the columns."""
+    return not line.strip() or line.lstrip().lower().startswith(("#", "sep="))
+
+
+def _numbers(values: dict[str, str]) -> list[str]:
+    return [field for field in values if field not in ("id", "kind")]
+
+
+def _has_decimal_commas(rows: list[dict[str, str]]) -> bool:
+    """Whether the commas in numbers can be nothing but the beginning of decimals."""
+    cells = [(field, row[field].strip()) for row in rows for field in _numbers(row)]
+    return not any("." in cell for _, cell in cells) and any(
+        (field in ("lon", "lat") and "," in cell) or re.fullmatch(r"[+-]?\d+,(\d\d?|\d{4,})", cell)
+        for field, cell in cells
+    )
 
 
 def _columns(head: list[str], line: int) -> tuple[dict[str, int], bool]:
@@ -74,8 +110,11 @@ def _columns(head: list[str], line: int) -> tuple[dict[str, int], bool]:
 
 
 def _site(values: dict[str, str], geographic: bool, line: int) -> Site:
-    first, second = ("lon", "lat") if geographic else ("x", "y")
-    spot = parsed_number(values[first], first, line), parsed_number(values[second], second, line)
+    if geographic:
+        lon, lat = values["lon"], values["lat"]
+        spot = parsed_degrees(lon, "lon", line), parsed_degrees(lat, "lat", line)
+    else:
+        spot = parsed_number(values["x"], "x", line), parsed_number(values["y"], "y", line)
     return site_of(values, spot, geographic=geographic, line=line)
 
 

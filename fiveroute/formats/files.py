@@ -32,6 +32,8 @@ __all__ = [
 MAX_BYTES = 32 * 2**20
 """Largest file that is read; 100,000 nodes take about 7 MB."""
 
+_ZIP = b"PK\x03\x04"
+
 _REMEDIES: tuple[tuple[type[OSError], str], ...] = (
     (FileNotFoundError, "does not exist; check the name"),
     (IsADirectoryError, "is a folder; name a file in it"),
@@ -54,11 +56,15 @@ def read_text(path: Path) -> str:
         raise InputError(_reason(error), file=path) from None
     if len(data) > MAX_BYTES:
         raise InputError(f"is larger than {MAX_BYTES // 2**20} MB; split it", file=path)
+    if data.startswith(_ZIP):
+        raise InputError(
+            "is a zip archive, as .xlsx and .kmz are; save it as CSV UTF-8, or as KML", file=path
+        )
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(
-            "is no UTF-8 text; save the file as UTF-8",
+            "is no UTF-8 text; save the file as UTF-8 (a spreadsheet as CSV UTF-8)",
             value=data[error.start : error.start + 1],
             file=path,
             line=data.count(b"\n", 0, error.start) + 1,

@@ -1,9 +1,10 @@
 """Nodes and zones from GeoJSON: longitude and latitude on WGS84, as RFC 7946 has it.
 
-A ``Point`` is a node, with the properties ``id`` or ``name``, ``data``, ``service_time`` and
-``depth``, or minus its altitude where that is below zero. A ``Polygon`` is a zone, and so is every
-part of a ``MultiPolygon``; ``kind`` says ``land`` or ``obstacle``, which it is without one. A
-``Point`` with a ``radius`` in metres is a round obstacle. Lines of the ``kind`` route are no nodes.
+A ``Point``, or a ``MultiPoint`` of one, is a node, with the properties ``id`` or ``name``,
+``data``, ``service_time`` and ``depth``, or minus its altitude where that is below zero. A
+``Polygon`` is a zone, and so is every part of a ``MultiPolygon``; ``kind`` says ``land`` or
+``obstacle``, which it is without one. A ``Point`` with a ``radius`` in metres is a round obstacle.
+Lines of the ``kind`` route are no nodes.
 
 References
 ----------
@@ -75,6 +76,8 @@ def _things(feature: object, where: str) -> Iterator[Site | Area]:
     values = _values(told, f"{where}.properties")
     kind, place = geometry.get("type"), geometry.get("coordinates")
     at = f"{where}.geometry.coordinates"
+    if kind == "MultiPoint" and isinstance(place, list) and len(place) == 1:
+        kind, place = "Point", place[0]  # as QGIS likes to save points
     if kind == "Point":
         yield _point(place, values, at, where)
     elif kind in ("Polygon", "MultiPolygon"):
@@ -82,7 +85,8 @@ def _things(feature: object, where: str) -> Iterator[Site | Area]:
             yield _polygon(rings, values, at)
     elif (values.get("kind") or "").lower() != "route":
         raise InputError(
-            "must be Point, Polygon or MultiPolygon; remove the feature, or say kind: route",
+            "must be Point, MultiPoint of one, Polygon or MultiPolygon; remove the feature, or "
+            "say kind: route",
             field=f"{where}.geometry.type",
             value=kind,
         )

@@ -138,6 +138,12 @@ class Survey:
         start = self._end("start", terms.start, "released")
         destination = self._end("destination", terms.destination, "recovered")
         sites = [site for site in self.sites if site.end is None]
+        if not sites:
+            raise InputError(
+                "are missing; a node is a row of a table, a point, or a waypoint (wpt) of GPX: "
+                "routes and tracks are left alone",
+                field="nodes",
+            )
         areas = [*self.areas, *self._areas_of(zones)]
         stops = [start, destination, *(site.spot for site in sites)]
         plane = _middle(stops) if self.geographic else None
@@ -171,13 +177,18 @@ class Survey:
         return require_on_earth(*stated, f"--{which}") if self.geographic else stated
 
     def _areas_of(self, zones: Survey | None) -> tuple[Area, ...]:
-        areas = zones.areas if zones else ()
-        if zones and areas and zones.geographic != self.geographic:
+        if zones is None:
+            return ()
+        if not zones.areas:
+            raise InputError(
+                "hold no polygon; draw some, for lines keep nobody out", field="--zones"
+            )
+        if zones.geographic != self.geographic:
             raise InputError(
                 "one has longitudes and latitudes, the other metres; use one kind for both",
                 field="nodes and zones",
             )
-        return areas
+        return zones.areas
 
 
 def require_on_earth(lon: float, lat: float, where: str, line: int | None = None) -> Spot:

@@ -29,7 +29,8 @@ def test_a_table_becomes_a_mission(call: Any, table: Path, tmp_path: Path) -> No
     target.parent.mkdir()
     options = ("--zones", zones, "--currents", currents, "--depth", 5, "--depth-rating", 80)
     answer = call("convert", table, "--to", "native", "--output", target, *ENDS, *FLEET, *options)
-    assert (answer.code, answer.out, answer.err) == (0, "", "")
+    found = "2 nodes (data 3 in all) in 5.07 by 5.57 km, 1 zone to keep out of"
+    assert (answer.code, answer.out, answer.err) == (0, "", f"fiveroute: {target}: {found}\n")
     sea = json.loads(target.read_text())
     assert [node["id"] for node in sea["nodes"]] == ["a", "b"]
     assert sea["nodes"][0]["depth"] == 30.0
@@ -54,6 +55,44 @@ def test_currents_are_found_from_the_mission(
     )  # fmt: skip
     assert answer.code == 0
     assert json.loads(target.read_text())["ocean"]["currents"]["file"] == "../model.nc"
+
+
+def test_a_chart_says_what_was_understood(call: Any, tmp_path: Path) -> None:
+    """A column that means nothing to us, here the data, must not be lost in silence."""
+    table = tmp_path / "nodes.csv"
+    table.write_text("Station;lon;lat;Megabytes\na;10,01;63,05;2\n;;;\n")
+    target = tmp_path / "sea.json"
+    answer = call("convert", table, "--to", "native", "--output", target, *ENDS, *FLEET)
+    assert answer.code == 0
+    assert "1 node (each counts 1 as data)" in answer.err
+    assert "0 zones" in answer.err
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "words"),
+    [
+        ("route.gpx", '<gpx><rte><rtept lat="63" lon="10"/></rte></gpx>', ("nodes", "waypoint")),
+        ("coast.kml", "<kml><LineString/></kml>", ("nodes", "missing")),
+        ("nodes.kmz", "PK\x03\x04", (".kmz", "save it as")),
+    ],
+)
+def test_charts_without_nodes_are_refused(
+    call: Any, tmp_path: Path, name: str, content: str, words: tuple[str, ...]
+) -> None:
+    chart = tmp_path / name
+    chart.write_text(content)
+    answer = call("convert", chart, "--to", "native", "--output", tmp_path / "x", *ENDS, *FLEET)
+    assert (answer.code, answer.err.count("\n")) == (2, 1)
+    assert all(word in answer.err for word in words)
+
+
+def test_a_coast_of_lines_keeps_nobody_out(call: Any, table: Path, tmp_path: Path) -> None:
+    coast = tmp_path / "coast.kml"
+    coast.write_text("<kml><LineString><coordinates>10,63 10.1,63</coordinates></LineString></kml>")
+    how = ("--to", "native", "--output", tmp_path / "x", *ENDS, *FLEET, "--zones", coast)
+    answer = call("convert", table, *how)
+    assert answer.code == 2
+    assert "--zones: hold no polygon" in answer.err
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,8 @@ from fiveroute.formats.chart_fields import area_kind, fields_of, site_of
         ("Depth (m)", "depth"),
         ("Station ID", "id"),
         ("RHO", "data"),
+        ("Data (MB)", "data"),
+        ("Volume [kbit]", "data"),
     ],
 )
 def test_names_have_many_spellings(name: str, field: str) -> None:

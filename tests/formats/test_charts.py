@@ -135,6 +135,29 @@ def test_tables_in_metres(text: str) -> None:
     assert SURVEY_FORMATS["csv"].read(text) == Survey(False, (Site("a", (1.5, -2.0)),))
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "id;lon;lat;data\n1,5;10,5;63,25;0,5\n;;;\n",
+        "id\tlon\tlat\tdata\n1,5\t10,500\t63,250\t0,5\n",
+        "sep=;\r\nid;lon;lat;Data (MB)\r\n1,5;10.5;63.25;0.5\r\n",
+        "# made by hand\n#\nid;lon;lat;data\n1,5;10°30'E;63 15 N;.5\n",
+    ],
+)
+def test_tables_as_spreadsheets_of_many_countries_save_them(text: str) -> None:
+    assert SURVEY_FORMATS["csv"].read(text) == Survey(True, (Site("1,5", (10.5, 63.25), 0.5),))
+
+
+def test_metres_may_have_decimal_commas_where_they_cannot_be_thousands() -> None:
+    text = "id;x;y;depth\na;1234,5;6,789;2\n"
+    assert SURVEY_FORMATS["csv"].read(text).sites[0].spot == (1234.5, 6.789)
+
+
+def test_a_multipoint_of_one_is_a_point() -> None:
+    text = feature({"type": "MultiPoint", "coordinates": [[10.5, 63.25]]}, name="a")
+    assert SURVEY_FORMATS["geojson"].read(text).sites == (Site("a", (10.5, 63.25)),)
+
+
 def feature(geometry: object, **properties: object) -> str:
     return json.dumps({"type": "Feature", "properties": properties, "geometry": geometry})
 
@@ -148,7 +171,10 @@ POINT = {"type": "Point", "coordinates": [1, 2]}
         ("csv", "10,63\n11,64\n", ("line 1", "lon and lat")),
         ("csv", "id,lon,lat\na,10\n", ("line 2", "2 cells, not 3")),
         ("csv", "id,lon,lat\na,10,63\nb,ten,63\n", ("line 3", "lon", "'ten'")),
-        ("csv", "id;lon;lat\na;10,5;63\n", ("line 2", "10,5")),
+        ("csv", "id;lon;lat\na;10,5;63.5\n", ("line 2", "10,5")),
+        ("csv", "id;x;y\na;1,234;5,678\n", ("line 2", "1,234")),
+        ("csv", "# a\n\nid,lon,lat\na,10,N\n", ("line 4", "lat", "'N'")),
+        ("csv", "# nothing else\n", ("names its columns",)),
         ("csv", "id,lon,lat\na,10,95\n", ("line 2", "latitude")),
         ("csv", "id,lon,lat,data\na,10,63,-1\n", ("line 2", "data", "negative")),
         ("csv", "id,lon,lat,dpeth\na,10,63,1\n", ("line 1", "depth")),
@@ -167,6 +193,7 @@ POINT = {"type": "Point", "coordinates": [1, 2]}
         ("geojson", feature({"type": "Polygon", "coordinates": [SQUARE[:3]]}), ("ring",)),
         ("geojson", feature({"type": "Polygon", "coordinates": [SQUARE] * 2}), ("holes",)),
         ("geojson", feature({"type": "Polygon", "coordinates": [SQUARE]}, kind="bog"), ("land",)),
+        ("geojson", feature({"type": "MultiPoint", "coordinates": SQUARE}), ("of one",)),
         ("geojson", feature(None), ("geometry",)),
         (
             "geojson",
