@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import json
 import math
+import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from fiveroute.cli.words import clock
 from fiveroute.instance import Instance
 from fiveroute.result import GiantRouteResult, Status
 from fiveroute.routes import Route
+from fiveroute.words import clock
 
 if TYPE_CHECKING:
-    from fiveroute.decide.sweep import Sweep
     from fiveroute.fleet_plan import FleetPlan
     from fiveroute.formats.plan_file import PlanFile
     from fiveroute.mission import MissionPlan
@@ -36,19 +36,17 @@ __all__ = [
     "print_path",
     "print_routes",
     "print_simulation",
-    "print_sweep",
     "print_table",
     "print_verdict",
     "simulation_answer",
-    "sweep_answer",
     "verify_answer",
 ]
 
-_ONLY_IN_FILES = {"routes", "bound", "objective", "held_out_p25", "held_out_p75", "unreachable"}
-"""Columns of a sweep that a table for people leaves out."""
-
 _ENDLESS = 1e6
 """A gap as only a plan has that collects nothing, or as good as nothing."""
+
+_WIDE = 160
+"""Characters in a line of a table where there is no terminal that has a width of its own."""
 
 _CODES = {Status.OPTIMAL: 0, Status.FEASIBLE: 0, Status.INFEASIBLE: 1, Status.NO_SOLUTION: 3}
 
@@ -229,37 +227,6 @@ def print_simulation(answer: Mapping[str, Any]) -> None:
         click.echo(f"{name:<16}{text}")
 
 
-def sweep_answer(sweep: Sweep) -> dict[str, Any]:
-    """What `decide` answers: a row a value, and the value that it points out."""
-    return {
-        "instance": sweep.instance,
-        "quantity": sweep.quantity,
-        "unit": sweep.unit,
-        "rows": [dict(row) for row in sweep.rows],
-        "marked": sweep.marked,
-        "because": sweep.because,
-    }
-
-
-def print_sweep(sweep: Sweep) -> None:
-    """Print what was varied for people, and what it points out."""
-    columns = [name for name in sweep.rows[0] if name not in _ONLY_IN_FILES]
-    cells = [[_cell(row[name]) for name in columns] for row in sweep.rows]
-    header = [name.replace("_", " ") for name in columns]
-    print_table(sweep.instance, header, cells, words=(0,))
-    if sweep.marked is not None:
-        marked = sweep.marked
-        shown = f"{marked:.3g}" if isinstance(marked, float) else str(marked)
-        unit = f" {sweep.unit}" if sweep.unit else ""
-        click.echo(f"{sweep.quantity.replace('_', ' ')} {shown}{unit}: {sweep.because}")
-
-
-def _cell(value: float | int | str | None) -> str:
-    if value is None:
-        return "-"
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
-
-
 def verify_answer(instance: Instance, filed: PlanFile, verdict: Verdict) -> dict[str, Any]:
     """The keys of `verify`: AUVs are counted from 0, nodes go by their ids."""
     return {
@@ -350,7 +317,8 @@ def print_table(
         table.add_column(name, justify="left" if column in words else "right", overflow="fold")
     for row in rows:
         table.add_row(*map(str, row))
-    Console(soft_wrap=False, highlight=False).print(table)
+    width = None if sys.stdout.isatty() else _WIDE
+    Console(soft_wrap=False, highlight=False, width=width).print(table)
 
 
 def gap_text(gap: float | None) -> str:

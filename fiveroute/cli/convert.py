@@ -9,7 +9,7 @@ import click
 
 from fiveroute.cli import options
 from fiveroute.cli.notes import note
-from fiveroute.cli.words import counted
+from fiveroute.words import counted
 
 if TYPE_CHECKING:
     from fiveroute.instance import Instance

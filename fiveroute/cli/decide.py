@@ -50,7 +50,7 @@ class _Numbers(click.ParamType[tuple[float, ...]]):
         if not (step > 0.0 and last >= first and (last - first) / step <= 1000.0):
             return ()
         count = int((last - first) / step + 1e-9) + 1
-        return tuple(first + k * step for k in range(count))
+        return tuple(float(f"{first + k * step:.12g}") for k in range(count))
 
 
 _NUMBERS = _Numbers()
@@ -446,7 +446,8 @@ def _answer(
     as_json: bool,
 ) -> None:
     """Work the table out, write and draw it where that is asked for, and print it."""
-    from fiveroute.cli import answers
+    from fiveroute.cli import sweeps
+    from fiveroute.cli.answers import print_json
     from fiveroute.cli.files import require_outputs, require_picture
     from fiveroute.cli.running import run
     from fiveroute.formats.tables import require_table, write_rows
@@ -465,9 +466,9 @@ def _answer(
         from fiveroute.plots.saving import save_figure
 
         save_figure(sweep_figure(sweep), picture)
-    answer = answers.sweep_answer(sweep)
     if as_json:
-        answers.print_json(answer)
+        print_json(sweeps.sweep_answer(sweep))
     else:
-        answers.print_sweep(sweep)
+        sweeps.print_sweep(sweep)
+    sweeps.note_left_out(sweep)
     ctx.exit(130 if outcome.interrupted else 0)

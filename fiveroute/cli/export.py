@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from fiveroute.cli import options
-from fiveroute.cli.words import clock, counted
+from fiveroute.words import clock, counted
 
 __all__ = ["command"]
 

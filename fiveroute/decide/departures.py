@@ -74,7 +74,7 @@ def sweep_departures(
     clock = (limits or Limits()).start()
     sweep = vary(instance.name, "hours", "h", hours, row, clock=clock, progress=progress)
     best = sweep.best("completion_rate")
-    return sweep if best is None else sweep.marking(best["hours"], f"best, {best['departure']}")
+    return sweep if best is None else sweep.marking(best["hours"], f"best, {best['departure']} UTC")
 
 
 def begin_after(first: datetime, hours: float) -> str:

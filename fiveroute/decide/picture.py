@@ -6,6 +6,7 @@ import math
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator, PercentFormatter
 
 from fiveroute.colours import BLUE, GREEN, VERMILION
 from fiveroute.decide.sweep import Sweep
@@ -22,6 +23,12 @@ _LINES = (
     ("held_out_mean", "mean of held-out members", BLUE),
     ("held_out_cvar", "their CVaR", VERMILION),
 )
+_LABELS = {
+    "fleet_size": "AUVs",
+    "hours": "departure, hours into the forecast",
+    "speed": "speed through the water in m/s",
+    "reserve": "reserve, standard deviations of the remaining time",
+}
 
 
 def sweep_figure(sweep: Sweep) -> Figure:
@@ -54,11 +61,13 @@ def sweep_figure(sweep: Sweep) -> Figure:
         axis.set_xticks(places, [str(value) for value in values], rotation=20, ha="right")
     _draw_late(axis, sweep, places)
     _draw_mark(axis, sweep, dict(zip(values, places, strict=True)))
-    unit = f" in {sweep.unit}" if sweep.unit else ""
+    if all(isinstance(value, int) for value in values):
+        axis.xaxis.set_major_locator(MaxNLocator(integer=True))
+    axis.yaxis.set_major_formatter(PercentFormatter(1.0))
     axis.set(
         title=sweep.instance,
-        xlabel=sweep.quantity.replace("_", " ") + unit,
-        ylabel="completion rate",
+        xlabel=_LABELS.get(sweep.quantity, sweep.quantity.replace("_", " ")),
+        ylabel="share of all data collected",
     )
     axis.grid(alpha=0.3)
     figure.legend(loc="outside lower center", ncols=4, fontsize="small")

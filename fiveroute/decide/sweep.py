@@ -16,8 +16,27 @@ import numpy as np
 from fiveroute.fleet_plan import FleetPlan
 from fiveroute.limits import Clock, Limits, Progress, ProgressCallback
 from fiveroute.problem import completion_rate
+from fiveroute.words import clock
 
-__all__ = ["Row", "Sweep", "figures", "vary"]
+__all__ = ["Row", "Sweep", "figures", "heading", "seen_columns", "shown", "vary"]
+
+_ONLY_IN_FILES = {"routes", "bound", "objective", "held_out_p25", "held_out_p75", "unreachable"}
+_ENDLESS = 1e6
+"""A gap as only a plan has that collects nothing, or as good as nothing."""
+
+_DATES = {"departure"}
+_TIMES = {"endurance", "mean_duration"}
+_SHARES = {"completion_rate", "bound_rate", "gap", "late_share", "p5", "p95"}
+_HEADINGS = {
+    "fleet_size": "AUVs",
+    "completion_rate": "collected",
+    "bound_rate": "at most",
+    "mean_duration": "mean time",
+    "late_share": "late",
+    "p5": "5 % below",
+    "p95": "5 % above",
+    "power": "watts",
+}
 
 Value = float | int | str | None
 Row = Mapping[str, Value]
@@ -41,6 +60,8 @@ class Sweep:
         The value to point out; None without one.
     because
         Why, in a few words.
+    left_out
+        Values that there was no time for.
     """
 
     instance: str
@@ -49,6 +70,7 @@ class Sweep:
     rows: tuple[Row, ...]
     marked: Value = None
     because: str = ""
+    left_out: tuple[float, ...] = ()
 
     def marking(self, value: Value, because: str) -> Sweep:
         """The same with a value pointed out."""
@@ -61,15 +83,16 @@ class Sweep:
 
     def _repr_html_(self) -> str:
         """The table, for notebooks; the value to point out is bold."""
-        names = [name.replace("_", " ") for name in (self.rows[0] if self.rows else ())]
-        head = "".join(f"<th>{escape(name)}</th>" for name in names)
-        body = "".join(self._html_row(row) for row in self.rows)
+        columns = seen_columns(self)
+        head = "".join(f"<th>{escape(heading(name))}</th>" for name in columns)
+        body = "".join(self._html_row(row, columns) for row in self.rows)
         title = f"<b>{escape(self.instance)}</b>" + escape(self.because and f": {self.because}")
         return f"<div>{title}<table><tr>{head}</tr>{body}</table></div>"
 
-    def _html_row(self, row: Row) -> str:
+    def _html_row(self, row: Row, columns: Sequence[str]) -> str:
         tag = "th" if row[self.quantity] == self.marked else "td"
-        return f"<tr>{''.join(f'<{tag}>{_shown(value)}</{tag}>' for value in row.values())}</tr>"
+        cells = (escape(shown(name, row[name])) for name in columns)
+        return f"<tr>{''.join(f'<{tag}>{cell}</{tag}>' for cell in cells)}</tr>"
 
 
 def vary(
@@ -106,7 +129,7 @@ def vary(
             progress(Progress(clock.seconds, message=message))
         limits = clock.limits.within(clock.left / (len(values) - done))
         rows.append({quantity: value, **row(value, limits)})
-    return Sweep(instance, quantity, unit, tuple(rows))
+    return Sweep(instance, quantity, unit, tuple(rows), left_out=tuple(values[len(rows) :]))
 
 
 def figures(plan: FleetPlan) -> dict[str, Value]:
@@ -125,10 +148,27 @@ def figures(plan: FleetPlan) -> dict[str, Value]:
     }
 
 
-def _shown(value: Value) -> str:
+def seen_columns(sweep: Sweep) -> list[str]:
+    """The columns that people want to see."""
+    return [name for name in (sweep.rows[0] if sweep.rows else ()) if name not in _ONLY_IN_FILES]
+
+
+def heading(name: str) -> str:
+    """What a column is called in a table for people."""
+    return _HEADINGS.get(name, name.replace("_", " "))
+
+
+def shown(name: str, value: Value) -> str:
+    """A figure of a column as people read it: shares in per cent, times as h:mm:ss."""
     if value is None:
         return "-"
-    return escape(f"{value:.4g}" if isinstance(value, float) else str(value))
+    if not isinstance(value, float):
+        return str(value).replace("T", " ").removesuffix(":00") if name in _DATES else str(value)
+    if name in _TIMES:
+        return clock(value)
+    if name in _SHARES or name.startswith(("training_", "held_out_")):
+        return f"{100.0 * value:.1f} %" if value < _ENDLESS else "endless"
+    return f"{value:.4g}"
 
 
 def _number(value: Value) -> float | None:

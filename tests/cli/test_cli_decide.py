@@ -29,6 +29,20 @@ def test_the_table_for_people_points_something_out(call: Any, tiny: Path) -> Non
     assert "collects most" in answer.out
 
 
+def test_values_without_time_are_told(call: Any, tiny: Path) -> None:
+    answer = call("decide", "fleet-size", tiny, "--sizes", "1:3:1", "--time-limit", "1e-9")
+    assert answer.code == 0
+    assert answer.err == (
+        "fiveroute: there was no time for AUVs 2, 3; give more with --time-limit\n"
+    )
+
+
+def test_steps_leave_no_crumbs(call: Any, tiny: Path) -> None:
+    how = ("--speeds", "0.8:1.2:0.2", "--straight-lines", "--bound", "none", "--json")
+    rows = call("decide", "speed", tiny, *how).doc["rows"]
+    assert [row["speed"] for row in rows] == [0.8, 1.0, 1.2]
+
+
 @pytest.mark.parametrize(
     "wrong", ["", "x", "3:1:1", "1:2:0", "1:2", "1:100000:1e-3", "nan", "1,inf"]
 )

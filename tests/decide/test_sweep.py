@@ -1,6 +1,8 @@
 """Sweeps: their rows, their marks, and what an interruption leaves."""
 
-from fiveroute.decide.sweep import Row, Sweep, vary
+import pytest
+
+from fiveroute.decide.sweep import Row, Sweep, Value, shown, vary
 from fiveroute.limits import Limits
 
 
@@ -34,16 +36,34 @@ def test_an_interruption_leaves_what_is_done() -> None:
 
     sweep = vary("sea", "speed", "", [1.0, 2.0, 3.0], interrupted, clock=limits.start())
     assert len(sweep.rows) == 1
+    assert sweep.left_out == (2.0, 3.0)
 
 
 def test_missing_figures_are_no_best() -> None:
     assert Sweep("sea", "speed", "", ({"speed": 1.0, "gap": None},)).best("gap") is None
 
 
+@pytest.mark.parametrize(
+    ("name", "value", "words"),
+    [
+        ("bound_rate", None, "-"),
+        ("completion_rate", 0.5603, "56.0 %"),
+        ("held_out_cvar", 1.0, "100.0 %"),
+        ("gap", 1e12, "endless"),
+        ("mean_duration", 17797.0, "4:56:37"),
+        ("departure", "2015-11-16T06:30:00", "2015-11-16 06:30"),
+        ("speed", 1.2, "1.2"),
+        ("status", "optimal", "optimal"),
+    ],
+)
+def test_figures_for_people(name: str, value: Value, words: str) -> None:
+    assert shown(name, value) == words
+
+
 def test_a_notebook_shows_the_table() -> None:
     rows: tuple[Row, ...] = ({"fleet_size": 1, "gap": None}, {"fleet_size": 2, "gap": 0.123456})
     html = Sweep("<sea>", "fleet_size", "", rows, marked=2, because="the <best>")._repr_html_()
     assert "<b>&lt;sea&gt;</b>: the &lt;best&gt;<table>" in html
-    assert "<th>fleet size</th><th>gap</th>" in html
-    assert "<tr><td>1</td><td>-</td></tr><tr><th>2</th><th>0.1235</th></tr>" in html
+    assert "<th>AUVs</th><th>gap</th>" in html
+    assert "<tr><td>1</td><td>-</td></tr><tr><th>2</th><th>12.3 %</th></tr>" in html
     assert "<tr></tr>" in Sweep("sea", "speed", "", ())._repr_html_()
