@@ -107,6 +107,8 @@ def draw_fleet(
         x, y = _until(track, t).T / unit
         ax.plot(x, y, color="white", linewidth=3.4, zorder=3)
         ax.plot(x, y, dash, color=colour, linewidth=1.8, zorder=4, label=f"AUV {auv + 1}")
+        if tracks is None or not len(tracks[auv]):
+            _draw_guessed(ax, scene, auv, [leg for leg in own if leg.left < t], t)
         if math.isfinite(t):
             rim: dict[str, Any] = {"markeredgecolor": "white", "markeredgewidth": 1.4}
             ax.plot(x[-1:], y[-1:], "o", color=colour, markersize=10, zorder=7, **rim)
@@ -117,6 +119,17 @@ def draw_fleet(
     data = np.array([node.data for node in scene.instance.nodes])
     hours = "" if math.isinf(t) else f" in {t / 3600.0:.2f} h"
     ax.set_title(f"{_share(scene, float(data[collected].sum()))}{hours}")
+
+
+def _draw_guessed(ax: Axes, scene: Scene, auv: int, legs: Sequence[Leg], t: float) -> None:
+    """Gaps in the straight lines that stand for ways nobody has told."""
+    points = scene.instance.points / unit_of(scene)
+    for leg in legs:
+        if scene.shapes.paths and scene.shapes.place(auv, leg) is None:
+            share = min((t - leg.left) / max(leg.reached - leg.left, 1e-9), 1.0)
+            tail, head = points[[leg.tail, leg.head]]
+            ends = np.array([tail, tail + share * (head - tail)])
+            ax.plot(*ends.T, color="white", linewidth=2.2, dashes=(2.0, 3.0), zorder=4.5)
 
 
 def _draw_nodes(ax: Axes, scene: Scene, owner: NDArray[Any], filled: NDArray[np.bool_]) -> None:

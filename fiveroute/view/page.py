@@ -25,6 +25,7 @@ SCRIPTS = (
     "numbers.js",
     "colours.js",
     "camera.js",
+    "earth.js",
     "tracks.js",
     "model.js",
     "history.js",

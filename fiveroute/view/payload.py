@@ -55,6 +55,7 @@ def _scene(scene: Scene) -> dict[str, Any]:
         "points": _rounded(instance.points.ravel()),
         "ids": [node.id for node in instance.nodes],
         "data": _rounded([node.data for node in instance.nodes]),
+        "depths": [_depth(node.depth, instance) for node in instance.nodes],
         "service": _rounded(instance.service_times[1:-1]),
         "speed": instance.fleet.speed,
         "budgets": _budgets(scene),
@@ -76,6 +77,11 @@ def _scene(scene: Scene) -> dict[str, Any]:
         "runs": [_run(run, scene) for run in scene.runs],
         "notes": list(scene.notes),
     }
+
+
+def _depth(stated: float | None, instance: Instance) -> float | None:
+    """Metres below the surface at which a node is visited, if anybody says."""
+    return instance.fleet.depth if stated is None else stated
 
 
 def _budgets(scene: Scene) -> list[float] | None:

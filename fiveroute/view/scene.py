@@ -21,8 +21,8 @@ __all__ = ["Scene", "scene_of"]
 _HELD = "The current changes with time; the plan takes it as it is when the mission begins."
 _IGNORED = "The plan ignores the current: straight lines in still water."
 _STRAIGHT = (
-    "Where a run leaves the planned paths, its legs are drawn straight: the log tells stops and "
-    "times, not positions."
+    "Where a run leaves the planned paths, its legs are drawn straight and in pieces, even across "
+    "land: the log tells stops and times, not positions. `simulate --tracks` tells the rest."
 )
 
 

@@ -1,11 +1,13 @@
 import math
+from dataclasses import replace
 
+import numpy as np
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fiveroute.plots import plot_mission, plot_plan
-from fiveroute.view.scene import Scene
+from fiveroute.view.scene import Scene, scene_of
 
 
 def tracks(ax: Axes) -> dict[str, list[list[float]]]:
@@ -42,6 +44,23 @@ def test_run_is_drawn_from_its_log(pond: Scene) -> None:
     assert shown["AUV 1"][-1] == pytest.approx([4.0, 0.0])
     assert shown["AUV 2"] == [[0.0, 0.0]]
     assert ax.get_title() == "pond, run 3: 2 of 10 collected"
+
+
+def test_ways_that_nobody_told_are_drawn_in_pieces(pond: Scene) -> None:
+    """The run goes home from node a, which no planned path does."""
+    a, b, start, home = (1000.0, 0.0), (2000.0, 500.0), (0.0, 0.0), (4000.0, 0.0)
+    paths = ((start, a), (a, b), (b, home)), ((start, home),)
+    planned = replace(pond.plan, routes=(("a", "b"), ()), paths=paths)
+    scene = scene_of(planned, runs=pond.runs)
+    assert pieces(plot_mission(scene, pond.runs[0])) == [[[1.0, 0.0], [4.0, 0.0]]]
+    assert pieces(plot_mission(scene, pond.runs[0], t=2500.0)) == [[[1.0, 0.0], [2.5, 0.0]]]
+    assert pieces(plot_mission(scene, pond.runs[0], t=900.0)) == pieces(plot_plan(scene)) == []
+
+
+def pieces(ax: Axes) -> list[list[list[float]]]:
+    """What is drawn over tracks as gaps."""
+    dashed = [line for line in ax.lines if line.get_linestyle() == "--"]
+    return [np.asarray(line.get_xydata()).tolist() for line in dashed]
 
 
 def test_ocean_is_beneath(bay: Scene) -> None:

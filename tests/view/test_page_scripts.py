@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from fiveroute.formats.plan_file import PlanFile
+from fiveroute.ocean.local_plane import LocalPlane
 from fiveroute.view.event_log import read_events
 from fiveroute.view.page import SCRIPTS
 from fiveroute.view.payload import document_of, embedded
@@ -58,6 +59,38 @@ def test_numbers_are_shown_as_people_read_them() -> None:
         "SW (225°)",
         "N (000°)",
     ]
+
+
+@pytest.mark.parametrize("origin", [(4.7, 60.9), (-179.9, -33.0), (0.0, 0.0), (12.5, 89.0)])
+def test_metres_lie_where_the_planner_says(origin: tuple[float, float]) -> None:
+    """Within a centimetre of PROJ up to 500 km from the origin, across the 180th meridian too."""
+    rng = np.random.default_rng(3)
+    points = rng.uniform(-350e3, 350e3, (40, 2))
+    points[:3] = (0.0, 0.0), (0.0, 9e4), (-9e4, 0.0)
+    shown = np.array(
+        evaluate(f"return {points.tolist()}.map((p) => onEarth({list(origin)}, ...p))")
+    )
+    x, y = LocalPlane(*origin).project(*shown.T)
+    assert np.hypot(x - points[:, 0], y - points[:, 1]).max() < 0.01
+
+
+def test_positions_are_written_as_on_charts() -> None:
+    said = evaluate("return [placeText({ origin: [-8.5, -33] }, 0, 0), placeText({}, 1, 2)]")
+    assert said == ["33.00000° S, 8.50000° W", None]
+
+
+def test_ways_that_nobody_told_are_drawn_in_pieces(plan: PlanFile, log_path: Path) -> None:
+    """AUV 2 goes to a node that is not on its plan; AUV 1 keeps to its own until it goes home."""
+    scene = scene_of(plan, runs=read_events(log_path, plan))
+    body = f"""
+      const scene = unpackScene({embedded(document_of([scene]))}.scenes[0]);
+      const bare = {{ ...scene, shapes: {{ first: [0], points: [] }}, cache: new Map() }};
+      return [-1, 1].map((run) => timelineOf(scene, run).guessed).concat([
+        timelineOf(bare, 1).guessed]);
+    """
+    planned, sailed, without_paths = evaluate(body)
+    assert planned == without_paths == [[], []]
+    assert sailed == [[[1100.0, 5000.0]], [[0.0, 2640.0]]]
 
 
 def test_search_counts_values_up_to_a_limit() -> None:

@@ -26,6 +26,7 @@ def test_document_tells_everything(plan: PlanFile, log_path: Path) -> None:
     scene = scene_of(plan, runs=read_events(log_path, plan))
     (shown,) = json.loads(embedded(document_of([scene])))["scenes"]
     assert shown["ids"] == [node.id for node in plan.instance.nodes]
+    assert shown["depths"] == [None] * 4
     assert shown["budgets"] == [9000.0, 9000.0]
     assert (shown["objective"], shown["bound"], shown["total"]) == (9.0, 10.0, 10.0)
     assert shown["gap"] == pytest.approx(1.0 / 9.0)

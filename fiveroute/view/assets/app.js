@@ -382,7 +382,7 @@ function showKey(host, app) {
     element(
       "p",
       {},
-      "▲ start, ★ destination. Messages are lines to those who hear them, broken and crossed where they are lost. Over the slider the collected data, with marks where nodes change hands.",
+      "▲ start, ★ destination. Thin: planned; bold: sailed, and in pieces where only the ends of a leg are known. Messages are lines to those who hear them, broken and crossed where they are lost. Over the slider the collected data, with marks where nodes change hands.",
     ),
   );
 }

@@ -104,8 +104,27 @@ function drawSailed(context, view, timeline, theme, t) {
     context.beginPath();
     traceTrack(context, view, track, t);
     strokeHaloed(context, auvColour(theme, auv), 3, theme.halo);
+    drawGuessed(context, view, timeline.guessed[auv], track, theme, t);
   });
   context.setLineDash([]);
+}
+
+/** Gaps in the straight lines that stand for ways nobody has told. */
+function drawGuessed(context, view, spans, track, theme, t) {
+  context.beginPath();
+  for (const [left, reached] of spans) {
+    if (left >= t) break;
+    for (const [k, when] of [left, Math.min(reached, t)].entries()) {
+      const { x, y } = positionAt(track, when);
+      if (k) context.lineTo(view.sx(x), view.sy(y));
+      else context.moveTo(view.sx(x), view.sy(y));
+    }
+  }
+  context.setLineDash([5, 7]);
+  context.lineCap = "butt";
+  context.strokeStyle = theme.halo;
+  context.lineWidth = 3.5;
+  context.stroke();
 }
 
 function nodeRadius(scene, node, view) {

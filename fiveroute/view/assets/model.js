@@ -60,11 +60,19 @@ function finished(scene, label, legs, events, isRun, sailed) {
     return known.length ? sailedTrack(known) : trackOf(own, scene.shapes, scene.points);
   });
   const { changes, collected } = historyOf(scene, events);
+  const isKnown = (auv) => !isRun || (sailed && bytesOf(sailed[auv]).byteLength > 0);
+  const guessed = legs.map((own, auv) => (isKnown(auv) ? [] : guessedLegs(scene, own)));
   const times = Float64Array.from(events, (event) => event.t);
   const ends = tracks.map((track) => track.t[track.t.length - 1]);
   const end = Math.max(...ends, times.length ? times[times.length - 1] : 0, 0);
   const fates = scene.legs.map((_, auv) => fateOf(events, auv));
-  return { label, legs, tracks, events, times, changes, collected, end, fates, isRun };
+  return { label, legs, tracks, guessed, events, times, changes, collected, end, fates, isRun };
+}
+
+/** When an AUV leaves for and reaches the legs of which only the ends are known. */
+function guessedLegs(scene, legs) {
+  const hasPaths = scene.shapes.first.length > 1;
+  return legs.filter((leg) => hasPaths && leg[4] < 0).map(([, left, reached]) => [left, reached]);
 }
 
 /** How an AUV's mission ended. */

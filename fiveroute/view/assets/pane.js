@@ -324,10 +324,13 @@ class Pane {
   auvLines(auv) {
     const { doing, node } = doingAt(this.scene, this.timeline, auv, this.t);
     const { count, sum } = this.dataOf(auv);
+    const now = positionAt(this.timeline.tracks[auv], this.t);
+    const place = placeText(this.scene, now.x, now.y);
     return [
       `AUV ${auv + 1}`,
       `${doing}${node ? ` ${this.scene.ids[node - 1]}` : ""}`,
       `${count} nodes, ${amount(sum)} data so far`,
+      ...(place ? [place] : []),
     ];
   }
 
@@ -336,10 +339,14 @@ class Pane {
     const { scene } = this;
     const who = auv < 0 ? "" : `, AUV ${auv + 1}`;
     const when = t > 0 ? ` at ${clock(t)}` : "";
+    const depth = scene.depths[node - 1];
+    const deep = depth === null ? "" : `, ${amount(depth)} m deep`;
+    const place = placeText(scene, scene.points[2 * node], scene.points[2 * node + 1]);
     return [
       scene.ids[node - 1],
-      `data ${amount(scene.data[node - 1])}, service ${amount(scene.service[node - 1])} s`,
+      `data ${amount(scene.data[node - 1])}, service ${amount(scene.service[node - 1])} s${deep}`,
       `${STATES[state]}${who}${when}`,
+      ...(place ? [place] : []),
     ];
   }
 
@@ -348,7 +355,8 @@ class Pane {
     const { chart, metres } = this.scene;
     const east = `${length(Math.abs(x), metres)} ${x < 0 ? "west" : "east"}`;
     const north = `${length(Math.abs(y), metres)} ${y < 0 ? "south" : "north"}`;
-    const lines = [`${east}, ${north}`];
+    const place = placeText(this.scene, x, y);
+    const lines = place ? [place, `${east}, ${north}`] : [`${east}, ${north}`];
     const what = maskAt(chart, x, y);
     const velocity = chart && !what ? velocityAt(chart, x, y, this.t) : null;
     if (what) lines.push(what === LAND ? "land" : "no data");

@@ -29,7 +29,7 @@ function swatch(theme, auv) {
 
 /** A table of any length of which only the rows in sight exist. */
 class Table {
-  /** columns: { name, value(row), show(row), isText, tip, width }; rows are numbers. What is shown
+  /** columns: { name, value(row), show(row), isText, tip, width, most }; rows are numbers. What is shown
    * is a text, or { text, parts() } with elements that are made when the text changes. */
   constructor(host, caption, columns, rows, onPick) {
     Object.assign(this, { columns, onPick, rows: rows.slice(), marked: -1, pitch: 29 });
@@ -102,9 +102,11 @@ class Table {
   }
 
   line(row) {
-    const cells = this.columns.map((column) =>
-      element("td", { class: column.isText ? "" : "number" }),
-    );
+    const cells = this.columns.map((column) => {
+      const cell = element("td", { class: column.isText ? "" : "number" });
+      if (column.most) cell.style.maxWidth = column.most;
+      return cell;
+    });
     const line = element(
       "tr",
       {
@@ -216,6 +218,7 @@ function fleetTable(host, pane, theme, onPick) {
       {
         name: "Now",
         isText: true,
+        most: "7.5em",
         value: (auv) => now(auv).doing,
         show: (auv) =>
           `${DOING[now(auv).doing]}${now(auv).node ? ` ${scene.ids[now(auv).node - 1]}` : ""}`,
