@@ -39,7 +39,7 @@ _SHARE_OF_PATHS = 0.5
 """Share of a time limit that planning the paths may take."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class FleetPlan:
     """Routes for a fleet, what they collect, and what is known about the optimum.
 
@@ -244,6 +244,10 @@ class FleetPlan:
             return no_plan_html(self.instance.name, self.status)
         return plan_html(self.filed())
 
+    def __repr__(self) -> str:
+        """Its first line: the mission alone has thousands of numbers."""
+        return f"<{type(self).__name__} {self._headline()}>"
+
     def __str__(self) -> str:
         """A line an AUV, and the figures that matter."""
         lines = [
@@ -252,12 +256,15 @@ class FleetPlan:
                 zip(self.routes, self.durations, strict=True), start=1
             )
         ]
+        return "\n".join([self._headline(), *lines])
+
+    def _headline(self) -> str:
         figures = [f"{self.instance.name}: {self.status}"]
         if self.objective is not None:
             figures.append(f"{self.objective:.6g} collected ({self.completion_rate:.1%})")
         if self.gap is not None:
             figures.append(f"gap {self.gap:.2%}")
-        return "\n".join([", ".join(figures), *lines])
+        return ", ".join(figures)
 
     def _named(self, route: tuple[int, ...]) -> list[str]:
         nodes = self.voyage.instance.nodes
@@ -366,6 +373,12 @@ def sail(
     progress
         Told how many paths are planned.
     """
+    if not isinstance(instance, Instance):
+        raise InputError(
+            "is no mission; read its file first, fiveroute.read(path)",
+            field="instance",
+            value=instance,
+        )
     if straight_lines or not instance.has_ocean:
         return Voyage.straight(instance)
     from fiveroute.tiers.pathing import at_sea

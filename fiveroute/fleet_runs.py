@@ -193,6 +193,8 @@ def simulate(
     """
     from fiveroute.sea.campaign import Campaign, sail_campaign
 
+    if runs < 1:
+        raise InputError("must be at least 1", field="runs", value=runs)
     clock = Limits.of(limits).start()
     pier = prepare(
         instance,

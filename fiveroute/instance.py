@@ -342,6 +342,12 @@ class Instance:
         except (KeyError, ValueError):
             return None
 
+    def _repr_html_(self) -> str:
+        """A line and a small map, for notebooks."""
+        from fiveroute.view.notebook import mission_html
+
+        return mission_html(self)
+
     @property
     def has_ocean(self) -> bool:
         """Whether there is anything but still, open water."""

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -49,6 +50,20 @@ def test_a_plan_knows_its_gap(sea: fr.Instance) -> None:
     assert plan.verify().feasible
     assert str(plan).count("AUV") == 2
     assert "<svg" in plan._repr_html_()
+
+
+def test_a_plan_is_short_where_it_is_typed(sea: fr.Instance) -> None:
+    plan = fr.plan(sea)
+    assert repr(plan) == f"<FleetPlan {str(plan).splitlines()[0]}>"
+
+
+def test_what_is_no_mission_is_refused(sea: fr.Instance) -> None:
+    path: Any = "sea.json"
+    for call in (fr.plan, fr.solve, fr.simulate):
+        with pytest.raises(fr.InputError, match="read its file first"):
+            call(path)
+    with pytest.raises(fr.InputError, match="runs: 0: must be at least 1"):
+        fr.simulate(sea, runs=0)
 
 
 def test_an_exact_method_proves_no_less(sea: fr.Instance) -> None:

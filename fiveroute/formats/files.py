@@ -152,7 +152,7 @@ def require_writable(path: Path, force: bool = False) -> None:
         if not path.parent.is_dir():
             raise InputError(f"folder {str(path.parent)!r} does not exist; make it", file=path)
         if path.is_file() and not force:
-            raise InputError("exists; pass --force to overwrite it", file=path)
+            raise InputError("exists; pass --force, or force=True, to overwrite it", file=path)
     except (OSError, ValueError) as error:
         raise InputError(_reason(error), file=path) from None
 

@@ -78,7 +78,8 @@ def _require_replaceable(folder: Path, suffixes: Collection[str], force: bool) -
         return
     held = [path for path in folder.rglob("*") if path.is_symlink() or not path.is_dir()]
     if held and not force:
-        raise InputError("is a folder with files in it; pass --force to replace it", file=folder)
+        told = "is a folder with files in it; pass --force, or force=True, to replace it"
+        raise InputError(told, file=folder)
     foreign = [path for path in held if path.is_symlink() or path.suffix not in suffixes]
     if foreign:
         raise InputError(

@@ -1,11 +1,11 @@
-"""A plan as a cell of a notebook shows it: a small map and a table of its AUVs.
+"""A plan as a cell of a notebook shows it: a small map and a table of its AUVs; a mission, too.
 
 Plain SVG and HTML without styles, scripts or references; all text is escaped.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from html import escape
 
 import numpy as np
@@ -13,13 +13,17 @@ from numpy.typing import NDArray
 
 from fiveroute.colours import COLOURS
 from fiveroute.formats.plan_file import PlanFile
+from fiveroute.instance import Currents, Instance, Polygon
+from fiveroute.paths.thinning import thinned
 from fiveroute.result import optimality_gap
+from fiveroute.words import clock, counted
 
-__all__ = ["no_plan_html", "plan_html"]
+__all__ = ["mission_html", "no_plan_html", "plan_html"]
 
 Floats = NDArray[np.float64]
 
 _COLOURS = (*COLOURS[:-1], "#888888")  # a notebook may be dark
+_LAND = "#d9cdb4"
 _SIDE, _RIM = 360.0, 12.0
 _MOST_NODES, _MOST_ROWS = 2000, 50
 
@@ -40,13 +44,41 @@ def plan_html(plan: PlanFile) -> str:
     head = "<tr><th>AUV</th><th>nodes</th><th>time, s</th><th>route</th></tr>"
     return (
         f"<div><b>{escape(plan.instance.name)}</b>: {escape(', '.join(figures))}<br>"
-        f"{_map(plan)}<table>{head}{rows}</table></div>"
+        f"{_map(plan.instance, _ways(plan), plan.routes)}<table>{head}{rows}</table></div>"
     )
 
 
 def no_plan_html(name: str, status: str) -> str:
     """What is to be said of a mission without a plan."""
     return f"<div><b>{escape(name)}</b>: {escape(status)}</div>"
+
+
+def mission_html(mission: Instance) -> str:
+    """What a mission holds, in a line, and a small map.
+
+    Parameters
+    ----------
+    mission
+        The mission.
+    """
+    fleet, ocean = mission.fleet, mission.ocean
+    endurance = fleet.endurance if isinstance(fleet.endurance, tuple) else (fleet.endurance,)
+    size = mission.fleet_size
+    figures = [
+        counted(len(mission.nodes), "node"),
+        f"data {mission.total_data:.6g}",
+        "AUVs to be estimated" if size is None else counted(size, "AUV"),
+        f"{fleet.speed:g} m/s",
+        ", ".join("unlimited" if each is None else clock(each) for each in endurance),
+    ]
+    if ocean.currents != Currents():
+        figures.append("currents")
+    if ocean.obstacles or ocean.land:
+        figures.append(counted(len(ocean.obstacles) + len(ocean.land), "zone"))
+    return (
+        f"<div><b>{escape(mission.name)}</b>: {escape(', '.join(figures))}<br>"
+        f"{_map(mission, (), ())}</div>"
+    )
 
 
 def _rows(plan: PlanFile) -> Iterator[str]:
@@ -65,23 +97,46 @@ def _shortened(route: tuple[str, ...], most: int = 12) -> str:
     return escape(" ".join(name[:24] for name in names))
 
 
-def _map(plan: PlanFile) -> str:
-    """Routes as lines, nodes as circles, start and destination in black."""
+def _ways(plan: PlanFile) -> list[Floats]:
+    """Where every AUV goes, in metres: along its paths, or straight from node to node."""
+    if plan.tracks is not None:
+        return [np.concatenate(legs) for legs in plan.tracks]
     points = plan.instance.points
+    known = {node.id: k for k, node in enumerate(plan.instance.nodes, start=1)}
+    ways = [[known[name] for name in route if name in known] for route in plan.routes]
+    return [points[[0, *way, len(points) - 1]] for way in ways]
+
+
+def _map(mission: Instance, ways: Sequence[Floats], routes: Sequence[Sequence[str]]) -> str:
+    """Zones, routes as lines, nodes as circles, start and destination in black."""
+    points = np.concatenate([mission.points, *ways])
     low, spans = points.min(axis=0), np.ptp(points, axis=0)
     scale = (_SIDE - 2.0 * _RIM) / max(float(spans.max()), 1e-12)
-    x, y = _RIM + scale * (points[:, 0] - low[0]), _RIM + scale * (low[1] + spans[1] - points[:, 1])
     width, height = (2.0 * _RIM + scale * span for span in spans)
-    vertices = {node.id: k for k, node in enumerate(plan.instance.nodes, start=1)}
+
+    def spots(places: Floats) -> list[str]:
+        x, y = (_RIM + scale * (places - low)).T
+        return [f"{a:.1f},{b:.1f}" for a, b in zip(x, height - y, strict=True)]
+
     parts = []
-    for auv, route in enumerate(plan.routes):
-        stops = [0, *(vertices[name] for name in route if name in vertices), len(points) - 1]
-        line = " ".join(f"{x[k]:.1f},{y[k]:.1f}" for k in stops)
+    for zone in (*mission.ocean.land, *mission.ocean.obstacles):
+        if isinstance(zone, Polygon):
+            corners = " ".join(spots(thinned(np.array(zone.polygon), 0.3 / scale)))
+            parts.append(f'<polygon points="{corners}" fill="{_LAND}"/>')
+        else:
+            x, y = spots(np.array([(zone.x, zone.y)]))[0].split(",")
+            radius = f"{scale * zone.radius:.1f}"
+            parts.append(f'<circle cx="{x}" cy="{y}" r="{radius}" fill="{_LAND}"/>')
+    for auv, way in enumerate(ways):
+        line = " ".join(spots(thinned(way, 0.3 / scale)))
         colour = _COLOURS[auv % len(_COLOURS)]
         parts.append(f'<polyline points="{line}" fill="none" stroke="{colour}"/>')
-    visited = {name for route in plan.routes for name in route}
-    for node in plan.instance.nodes[:_MOST_NODES]:
-        k, colour = vertices[node.id], "#333333" if node.id in visited else "#bbbbbb"
-        parts.append(f'<circle cx="{x[k]:.1f}" cy="{y[k]:.1f}" r="3" fill="{colour}"/>')
-    parts += [f'<circle cx="{x[k]:.1f}" cy="{y[k]:.1f}" r="5" stroke="#888888"/>' for k in (0, -1)]
+    visited = {name for route in routes for name in route}
+    places = [spot.split(",") for spot in spots(mission.points)]
+    for node, (x, y) in zip(mission.nodes[:_MOST_NODES], places[1:], strict=False):
+        colour = "#333333" if node.id in visited or not routes else "#bbbbbb"
+        parts.append(f'<circle cx="{x}" cy="{y}" r="3" fill="{colour}"/>')
+    parts += [
+        f'<circle cx="{x}" cy="{y}" r="5" stroke="#888888"/>' for x, y in (places[0], places[-1])
+    ]
     return f'<svg width="{width:.0f}" height="{height:.0f}">{"".join(parts)}</svg>'

@@ -3,7 +3,7 @@ from html.parser import HTMLParser
 
 from fiveroute.fleet_plan import plan as plan_fleet
 from fiveroute.formats.plan_file import PlanFile
-from fiveroute.instance import Fleet, Instance, Point
+from fiveroute.instance import Fleet, Instance, Ocean, Point
 from fiveroute.view.notebook import plan_html
 
 
@@ -22,9 +22,26 @@ def tags(html: str) -> list[str]:
 def test_cell_shows_map_and_fleet(plan: PlanFile) -> None:
     html = plan_html(plan)
     assert tags(html).count("polyline") == 2
-    assert tags(html).count("circle") == 6
+    assert tags(html).count("circle") == 7
     assert tags(html).count("tr") == 3
     assert "9 collected, feasible, bound 10, gap 11.11%" in html
+
+
+def test_the_map_follows_the_paths(plan: PlanFile) -> None:
+    """The first leg bends, so that AUV 1 has a corner more than stops."""
+    corners = [line.partition('"')[0].count(",") for line in plan_html(plan).split('points="')]
+    assert corners[2:] == [5, 3]
+    assert tags(plan_html(replace(plan, paths=None))).count("polyline") == 2
+
+
+def test_a_mission_shows_itself(plan: PlanFile) -> None:
+    html = plan.instance._repr_html_()
+    assert "4 nodes, data 10, 2 AUVs, 1 m/s, 2:30:00, currents, 2 zones" in html
+    assert tags(html).count("polygon") == 1
+    assert tags(html).count("circle") == 7
+    assert not {"script", "img", "polyline"} & set(tags(html))
+    own = replace(plan.instance, fleet=Fleet(None, 0.5, None), ocean=Ocean())
+    assert "AUVs to be estimated, 0.5 m/s, unlimited<" in own._repr_html_()
 
 
 def test_names_stay_text(plan: PlanFile) -> None:
