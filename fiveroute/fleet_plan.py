@@ -13,6 +13,7 @@ knows its routes by the ids of the nodes, and how far it can be from optimal.
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
@@ -24,11 +25,12 @@ from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.paths.voyage import Voyage
 from fiveroute.problem import TeamOrienteering, completion_rate
 from fiveroute.result import Result, Status
-from fiveroute.routes import Plan
+from fiveroute.routes import Plan, Route
 
 if TYPE_CHECKING:
     from fiveroute.formats.plan_file import PlanFile
     from fiveroute.mission import Bounding, MissionPlan, Search
+    from fiveroute.ocean.currents import Current
     from fiveroute.tiers.preplanning import Allocation
     from fiveroute.vehicle_files import Choices
     from fiveroute.verdict import Verdict
@@ -112,7 +114,21 @@ class FleetPlan:
     @property
     def durations(self) -> list[float]:
         """Travel and service time of every route in seconds."""
-        return [] if self.result.plan is None else list(self.result.plan.durations(self.problem))
+        if self.result.plan is None:
+            return []
+        if self.voyage.hasty is None:
+            return list(self.result.plan.durations(self.problem))
+        return [self._sailed(route, self.voyage.hasty) for route in self.result.plan.routes]
+
+    def _sailed(self, route: Route, current: Current) -> float:
+        """Seconds along the paths of a route, which the problem overstates a little."""
+        from fiveroute.check_paths import sailing_time
+
+        legs, speed = self.voyage.legs, self.instance.fleet.speed
+        assert legs is not None
+        stops = itertools.pairwise((0, *route, self.problem.destination))
+        sailed = sum(sailing_time(legs.track(*leg), current, speed) for leg in stops)
+        return sailed + float(self.problem.service[list(route)].sum())
 
     @property
     def unreachable(self) -> tuple[str, ...]:
@@ -131,7 +147,7 @@ class FleetPlan:
 
         voyage = self.voyage
         filed = PlanFile.of(voyage.instance, self.problem, self.result, voyage.legs)
-        return replace(filed, instance=voyage.mission)
+        return replace(filed, instance=voyage.mission, durations=tuple(self.durations))
 
     def save(
         self, path: str | PathLike[str], *, force: bool = False, source: Path | None = None

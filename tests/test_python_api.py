@@ -66,6 +66,22 @@ def test_what_is_no_mission_is_refused(sea: fr.Instance) -> None:
         fr.simulate(sea, runs=0)
 
 
+def test_a_plan_made_in_haste_says_what_its_routes_take(tmp_path: Path) -> None:
+    """Legs are timed roughly where time is up, and would be called false claims by the judge."""
+    instance = generate("paper", nodes=6, seed=5)
+    instance = replace(instance, fleet=replace(instance.fleet, size=2, endurance=12_000.0))
+    plan = fr.plan(instance, limits=1e-3)
+    assert plan.voyage.hasty is not None
+    assert plan.result.plan is not None
+    rough = plan.result.plan.durations(plan.problem)
+    assert all(
+        exact <= other <= 1.003 * exact for exact, other in zip(plan.durations, rough, strict=True)
+    )
+    assert plan.verify().feasible
+    plan.save(tmp_path / "plan.json")
+    assert fr.read_plan(tmp_path / "plan.json").verify().feasible
+
+
 def test_an_exact_method_proves_no_less(sea: fr.Instance) -> None:
     plan, proved = fr.plan(sea), fr.solve(sea)
     assert proved.status is fr.Status.OPTIMAL

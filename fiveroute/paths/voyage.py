@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.instance import Instance
+from fiveroute.ocean.currents import Current
 from fiveroute.paths.leg_table import LegTable
 
 __all__ = ["Voyage"]
@@ -30,6 +31,9 @@ class Voyage:
     is_complete
         Whether that is known of every node: an interruption leaves legs open, so that nothing
         is proved about the mission.
+    hasty
+        The current, where time was up before all legs were timed in it, so that some of `legs` are
+        a little longer than they need be; a plan times those that it takes. None otherwise.
     """
 
     mission: Instance
@@ -37,6 +41,7 @@ class Voyage:
     legs: LegTable | None = None
     unreachable: tuple[str, ...] = ()
     is_complete: bool = True
+    hasty: Current | None = None
 
     @classmethod
     def straight(cls, mission: Instance) -> Voyage:

@@ -134,14 +134,14 @@ def at_sea(
     current = stated_current(instance, folder)
     waters = waters_of(instance, current)
     key = table_key(waters, instance.points, source_digest(__name__), seed)
-    table, is_complete = kept_table(key), True
+    table, is_complete, is_hasty = kept_table(key), True, False
     if table is None:
         clock = (limits or Limits()).start()
         table = plan_legs(
             waters, current, instance.points, limits=clock.rest(), seed=seed, progress=progress
         )
-        is_complete = not clock.interrupted
-        if not clock.expired:  # no leg was left as it was
+        is_complete, is_hasty = not clock.interrupted, clock.expired
+        if not is_hasty:  # no leg was left as it was
             keep_table(key, table)
     lost = table.unreachable()
     kept = [node for node in range(1, len(instance.nodes) + 1) if node not in lost]
@@ -151,6 +151,7 @@ def at_sea(
         table.take([0, *kept, len(instance.nodes) + 1]),
         tuple(instance.nodes[node - 1].id for node in lost),
         is_complete,
+        current if is_hasty else None,
     )
 
 
