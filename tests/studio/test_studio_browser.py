@@ -101,6 +101,7 @@ def test_a_day_at_the_studio(browser: Any, studio: Studio, mission_path: Path) -
     visit.expect("#plan-state").to_contain_text("older than the mission")
     visit.expect("#gap-now").to_have_text("unknown")
     visit.expect("#stop-title").to_have_text("Node far")
+    visit.expect("#stop-place").to_contain_text("44.002")
     node = session.version.instance.nodes[2]
     assert (node.x, node.y) == pytest.approx((1400.0, 250.0), abs=15.0)
     plan(visit)

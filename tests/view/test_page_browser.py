@@ -1,6 +1,7 @@
 """The page in a real browser that has no network."""
 
 import math
+import re
 import shutil
 from collections.abc import Iterator
 from dataclasses import replace
@@ -401,6 +402,7 @@ def test_hover_and_pinch(browser: Any, scene: Scene, tmp_path: Path) -> None:
     box = page.locator(".pane canvas").bounding_box()
     page.mouse.move(box["x"] + 40, box["y"] + box["height"] / 2)
     assert "m/s to" in visit.text("#tip")
+    assert "° N" not in visit.text("#tip")  # nobody says where on Earth it is
     before = visit.pixels()
     client = page.context.new_cdp_session(page)
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
@@ -415,6 +417,15 @@ def test_hover_and_pinch(browser: Any, scene: Scene, tmp_path: Path) -> None:
     touch("touchMove", 130)
     touch("touchEnd", 0)
     assert visit.pixels() != before
+    visit.close()
+
+
+def test_a_place_on_earth_is_told(browser: Any, plan: PlanFile, tmp_path: Path) -> None:
+    sea = replace(plan.instance, crs="+proj=aeqd +lat_0=60.5 +lon_0=-4.75")
+    visit = Visit(browser, written([scene_of(replace(plan, instance=sea))], tmp_path))
+    box = visit.page.locator(".pane canvas").bounding_box()
+    visit.page.mouse.move(box["x"] + 40, box["y"] + box["height"] / 2)
+    assert re.search(r"60\.\d{5}° N, 4\.\d{5}° W", visit.text("#tip"))
     visit.close()
 
 

@@ -88,7 +88,7 @@ function planWords({ job, planned }, scene) {
   if (job?.state === "failed") return `No plan: ${job.error}`;
   if (planned && job?.state === "stopped") return "Stopped: the best plan so far.";
   if (planned && job && job.seconds > 0.95 * job.limit)
-    return "The plan is up to date. Its time ran out: more may make it better.";
+    return "The plan is up to date. Its time ran out: with more, its legs and routes may be better.";
   if (planned) return "The plan is up to date.";
   if (!scene.routes.length) return "There is no plan yet.";
   return "The plan is older than the mission: routes are a draft.";
@@ -165,12 +165,14 @@ class StopPart {
       title: "Remove the selected node (Delete)",
     });
     this.title = element("h2", { id: "stop-title", dir: "auto" });
+    this.place = element("p", { id: "stop-place", class: "hint" });
     this.ofNode = [this.id, this.data, this.service, this.depth];
     this.fields = element(
       "div",
       {},
       this.id.line,
       element("div", { class: "pair" }, this.x.line, this.y.line),
+      this.place,
       element("div", { class: "pair" }, this.data.line, this.service.line),
       this.depth.line,
     );
@@ -185,7 +187,7 @@ class StopPart {
     );
   }
 
-  show({ mission }, vertex) {
+  show({ mission, view }, vertex) {
     this.mission = mission;
     this.vertex = vertex;
     const count = mission.nodes.length;
@@ -200,6 +202,7 @@ class StopPart {
     if (vertex < 0) return;
     this.x.show(String(Number(stop.x.toFixed(3))));
     this.y.show(String(Number(stop.y.toFixed(3))));
+    this.place.textContent = placeText(view.scenes[0], stop.x, stop.y) || "";
     if (!isNode) return;
     this.id.show(stop.id);
     this.data.show(shownNumber(stop.data));

@@ -323,6 +323,7 @@ function startStudio() {
   const { formats } = JSON.parse(byId("data").textContent);
   const token = new URLSearchParams(location.search).get("token") || "";
   const studio = new Studio(new Client(token), formats);
+  byId("title").textContent = "Reading the mission ...";
   studio.open().catch((error) => studio.say(error.message, true));
   return studio;
 }
