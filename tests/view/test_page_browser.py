@@ -454,6 +454,19 @@ def test_a_hundred_thousand_points_play(browser: Any, plan: PlanFile, tmp_path: 
     visit.close()
 
 
+def test_going_back_in_time_draws_what_was_there(
+    browser: Any, scene: Scene, tmp_path: Path
+) -> None:
+    """Nodes are drawn again only where they change; backwards they must change back."""
+    visit = Visit(browser, written([scene], tmp_path))
+    shots = []
+    for time in (0.2, 0.6, 0.2, 0.6):
+        visit.set_time(time)
+        shots.append(visit.pixels())
+    assert shots[0] == shots[2] != shots[1]
+    visit.close()
+
+
 def test_policy_stops_markup_that_gets_in(browser: Any, scene: Scene, tmp_path: Path) -> None:
     """Even if a text became markup, its script would not run."""
     visit = Visit(browser, written([scene], tmp_path))

@@ -133,21 +133,47 @@ function nodeRadius(scene, node, view) {
   return (3.2 + 6.8 * Math.sqrt(scene.data[node - 1] / scene.most)) * shrink * zoom;
 }
 
-function drawNodes(context, view, scene, timeline, theme, t) {
-  for (let node = 1; node <= scene.ids.length; node += 1) {
-    const [x, y] = [view.sx(scene.points[2 * node]), view.sy(scene.points[2 * node + 1])];
-    if (x < -20 || y < -20 || x > view.width + 20 || y > view.height + 20) continue;
-    const { state, auv } = stateAt(timeline.changes[node - 1], t);
-    drawNode(
-      context,
-      x,
-      y,
-      nodeRadius(scene, node, view),
-      state,
-      auv < 0 ? theme.quiet : auvColour(theme, auv),
-      theme,
-    );
+/**
+ * Nodes on a layer of their own, of which only those are drawn again whose state has changed since:
+ * thousands of them are too many for every frame.
+ */
+class NodeLayer {
+  constructor() {
+    this.canvas = document.createElement("canvas");
+    this.key = "";
   }
+
+  /** Bring the layer up to a time; another key or none, or an earlier time, begins anew. */
+  draw({ width, height }, key, view, scene, timeline, theme, t) {
+    const context = this.canvas.getContext("2d");
+    if (!key || key !== this.key || t < this.t) {
+      [this.canvas.width, this.canvas.height] = [width, height];
+      context.setTransform(width / view.width, 0, 0, height / view.height, 0, 0);
+      [this.key, this.shown] = [key, new Array(scene.ids.length + 1)];
+    }
+    this.t = t;
+    for (let node = 1; node <= scene.ids.length; node += 1) {
+      const change = stateAt(timeline.changes[node - 1], t);
+      const before = this.shown[node];
+      if (change === before) continue;
+      this.shown[node] = change;
+      const [x, y] = [view.sx(scene.points[2 * node]), view.sy(scene.points[2 * node + 1])];
+      if (x < -20 || y < -20 || x > view.width + 20 || y > view.height + 20) continue;
+      const colour = change.auv < 0 ? theme.quiet : auvColour(theme, change.auv);
+      const radius = nodeRadius(scene, node, view);
+      if (before) wipe(context, x, y, radius + 1.5);
+      drawNode(context, x, y, radius, change.state, colour, theme);
+    }
+  }
+}
+
+function wipe(context, x, y, radius) {
+  context.globalCompositeOperation = "destination-out";
+  context.fillStyle = "#000";
+  context.beginPath();
+  context.arc(x, y, radius, 0, 2 * Math.PI);
+  context.fill();
+  context.globalCompositeOperation = "source-over";
 }
 
 /** Planned: a ring; collected: filled; dropped: a cross in a dashed ring; idle: half; not planned: dots. */

@@ -8,6 +8,7 @@ class Pane {
     this.marked = { auv: -1, node: 0 };
     this.sea = document.createElement("canvas");
     this.seaKey = "";
+    this.nodes = new NodeLayer();
     this.canvas = element("canvas", { tabindex: 0, role: "img" });
     this.choice = element("select", {
       "aria-label": "What this map shows",
@@ -126,7 +127,9 @@ class Pane {
     this.drawStill(view, theme, shows, width, height);
     context.drawImage(this.sea, 0, 0, width, height);
     drawSailed(context, view, this.timeline, theme, t);
-    drawNodes(context, view, this.scene, this.timeline, theme, t);
+    const key = this.app.editor ? "" : this.viewKey(view, theme); // an editor moves nodes about
+    this.nodes.draw(this.canvas, key, view, this.scene, this.timeline, theme, t);
+    context.drawImage(this.nodes.canvas, 0, 0, width, height);
     if (shows.names) drawNames(context, view, this.scene, theme);
     drawEnds(context, view, this.scene, theme);
     if (this.marked.node) this.drawMarkedNode(context, view, theme);
@@ -139,24 +142,18 @@ class Pane {
     drawFurniture(context, view, this.scene, theme);
   }
 
+  /** All that decides where things are drawn, and in which colours. */
+  viewKey(view, theme) {
+    const { x, y, scale } = this.app.camera;
+    const { width, height } = view;
+    const shown = [theme.water, window.devicePixelRatio, this.which, this.run];
+    return [x, y, scale, width, height, ...shown].join();
+  }
+
   /** The sea and the planned routes, drawn anew only when the view changes. */
   drawStill(view, theme, shows, width, height) {
     const frame = this.scene.chart ? frameAt(this.scene.chart, this.t) : 0;
-    const { camera } = this.app;
-    const key = [
-      camera.x,
-      camera.y,
-      camera.scale,
-      width,
-      height,
-      theme.water,
-      frame,
-      shows.arrows,
-      shows.routes,
-      window.devicePixelRatio,
-      this.which,
-      this.run,
-    ].join();
+    const key = [this.viewKey(view, theme), frame, shows.arrows, shows.routes].join();
     if (key === this.seaKey) return;
     this.seaKey = key;
     [this.sea.width, this.sea.height] = [this.canvas.width, this.canvas.height];
