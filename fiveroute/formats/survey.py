@@ -144,6 +144,7 @@ class Survey:
                 "routes and tracks are left alone",
                 field="nodes",
             )
+        _require_within_reach(sites, terms.depth_rating)
         areas = [*self.areas, *self._areas_of(zones)]
         stops = [start, destination, *(site.spot for site in sites)]
         plane = _middle(stops) if self.geographic else None
@@ -202,6 +203,19 @@ def require_on_earth(lon: float, lat: float, where: str, line: int | None = None
             line=line,
         )
     return (lon - 360.0 if lon > 180.0 else lon), lat
+
+
+def _require_within_reach(sites: Sequence[Site], rating: float | None) -> None:
+    """Refuse nodes that no AUV may dive to, before anybody plans for them."""
+    deep = [site for site in sites if rating is not None and (site.depth or 0.0) > rating]
+    if deep:
+        deepest = max(deep, key=lambda site: site.depth or 0.0)
+        raise InputError(
+            f"is deeper than the rating of {rating:g} m, as are {len(deep)} of {len(sites)} nodes; "
+            "leave them out, or state the depth at which they are visited",
+            field=f"depth of node {deepest.name!r}",
+            value=deepest.depth,
+        )
 
 
 def _needed(value: T | None, field: str, told: str) -> T:

@@ -105,6 +105,7 @@ def test_a_coast_of_lines_keeps_nobody_out(call: Any, table: Path, tmp_path: Pat
         ((*ENDS, *FLEET, "--speed", "0"), ("--speed", "x>0")),
         ((*ENDS, *FLEET, "--endurance", "inf"), ("--endurance", "finite")),
         ((*ENDS, *FLEET, "--fleet-size", "0"), ("--fleet-size",)),
+        ((*ENDS, *FLEET, "--depth-rating", "20"), ("node 'a'", "rating of 20 m", "1 of 2")),
         ((*ENDS, *FLEET, "--start", "63,10"), ("longitude first",)),
         ((*ENDS, *FLEET, "--currents", "nowhere.nc"), ("nowhere.nc", "does not exist")),
         ((*ENDS, *FLEET, "--zones", "nowhere.kml"), ("nowhere.kml", "does not exist")),
