@@ -7,13 +7,17 @@ out, doubled, moved and written over, numbers and words become absurd ones, keys
 are lost, doubled and exchanged, encodings and ends of lines are others, and the end is cut off.
 Files of currents are also written whole with contents that make no sense (`sea`). A reader may
 answer, or refuse with one printable line (`InputError`); anything else is a finding: another
-exception, a warning, more than `SECONDS` of processor time, more than `MEMORY`, the end of
-the process. Input K of a reader and a seed is the same in every run; ``--only K`` reads it alone.
+exception, a warning, more than `SECONDS` of processor time or `PATIENCE` without any, more than
+`MEMORY`, the end of the process. Python hears no signal while a library is at work, so that one
+that never comes back ends the process, whatever code it is in; the run says where, and goes on
+with the next input. Input K of a reader and a seed is the same in every run; ``--only K`` reads
+it alone.
 """
 
 from __future__ import annotations
 
 import argparse
+import faulthandler
 import json
 import mmap
 import os
@@ -30,7 +34,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from pathlib import Path
-from types import FrameType
 from typing import Any
 
 import numpy as np
@@ -67,6 +70,9 @@ from fiveroute.routes import Plan
 
 SECONDS = 5
 """Processor time that reading a small file may take."""
+
+PATIENCE = 600
+"""Seconds after which a reader waits for what will not come."""
 
 MEMORY = 6 * 2**30
 """Address space of the process that reads; the libraries' own is most of it."""
@@ -554,19 +560,17 @@ def content_of(name: str, seed: int, number: int) -> bytes:
     return reader(name).spoilt(random.Random(f"{name} {seed} {number}"))
 
 
-def _too_slow(_signal: int, _frame: FrameType | None) -> None:
-    raise TimeoutError(f"takes more than {SECONDS} s")
-
-
 def _read_batch(name: str, seed: int, numbers: range, path: Path, at: mmap.mmap) -> None:
     """Read inputs in this process, and print what is found."""
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    signal.signal(signal.SIGPROF, _too_slow)
+    for limit in (signal.SIGPROF, signal.SIGALRM):
+        faulthandler.register(limit, sys.stdout, chain=True)  # tell the place, and end
     kind, seen = reader(name), set[str]()
     for number in numbers:
         at[:8] = number.to_bytes(8, "little")
         path.write_bytes(content_of(name, seed, number))
         signal.setitimer(signal.ITIMER_PROF, SECONDS)
+        signal.setitimer(signal.ITIMER_REAL, PATIENCE)
         fault = fault_of(kind, path)
         signal.setitimer(signal.ITIMER_PROF, 0.0)
         if fault is not None:
@@ -575,6 +579,15 @@ def _read_batch(name: str, seed: int, numbers: range, path: Path, at: mmap.mmap)
                 seen.add(short)
                 sys.stdout.write(f"{name} --seed {seed} --only {number}\n{fault}\n")
                 sys.stdout.flush()
+
+
+def _end(status: int) -> str:
+    """How a process ended that should not have."""
+    if not os.WIFSIGNALED(status):
+        return f"ended with {os.waitstatus_to_exitcode(status)}"
+    if os.WTERMSIG(status) in (signal.SIGPROF, signal.SIGALRM):
+        return "never comes to an end"
+    return f"ended by {signal.Signals(os.WTERMSIG(status)).name}"
 
 
 def run(name: str, count: int, seed: int, first: int = 0) -> int:
@@ -601,7 +614,8 @@ def run(name: str, count: int, seed: int, first: int = 0) -> int:
             if status != 0:
                 number = int.from_bytes(at[:8], "little") + 1
                 findings += 1
-                sys.stdout.write(f"{name} --seed {seed} --only {number - 1}: ended by {status}\n")
+                sys.stdout.write(f"{name} --seed {seed} --only {number - 1}: {_end(status)}\n")
+                sys.stdout.flush()
     times = os.times()
     seconds = time.process_time() - begun + times.children_user + times.children_system
     sys.stdout.write(f"{name}: {count} inputs, {findings} findings, {seconds:.0f} s\n")

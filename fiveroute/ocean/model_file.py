@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
+from fiveroute.ocean.hdf5_heaps import endless_heap
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -61,6 +62,8 @@ def _require_hdf5(path: Path | str) -> None:
     """Look at a file as h5netcdf will: its own failure is heard twice, on standard error too."""
     import h5py  # type: ignore[import-untyped]
 
+    if (at := endless_heap(path)) is not None:
+        raise OSError(f"the heap at byte {at} is damaged")
     with h5py.File(path, "r") as held:
         held.attrs.get("_nc3_strict")
 

@@ -1,6 +1,7 @@
 """Damaged files of every kind are read, or refused in one line; `benchmarks/fuzz.py` goes on."""
 
 import importlib.util
+import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -143,3 +144,28 @@ def test_the_judge_of_readers_sees_faults(tmp_path: Path) -> None:
     assert "ZeroDivisionError" in of(lambda _: 1 // 0)
     assert "RuntimeWarning" in of(lambda _: fuzz.np.float64(1.0) / fuzz.np.float64(0.0))
     assert of(lambda _: None) == ""
+
+
+HANGING = """
+import itertools, sys
+import fuzz
+
+fuzz.SECONDS, fuzz.PATIENCE = 0.2, 0.5
+fuzz._READERS["hangs"] = lambda: fuzz.Reader("", (b"x" * 99,), {})
+sys.exit(fuzz.run("hangs", 2, 0))
+"""
+
+
+@pytest.mark.parametrize(
+    "wait", ["lambda _: sum(itertools.repeat(0))", "lambda _: __import__('time').sleep(60)"]
+)
+def test_the_run_finds_what_never_ends_and_goes_on(wait: str) -> None:
+    """A loop in C hears no signal handler of Python; a wait takes no processor time."""
+    call = [sys.executable, "-c", HANGING.format(wait)]
+    done = subprocess.run(
+        call, cwd=_SOURCE.parent, capture_output=True, text=True, timeout=120, check=False
+    )
+    assert done.returncode == 2, done.stderr
+    assert done.stdout.count("never comes to an end") == 2
+    assert "in <lambda>" in done.stdout  # the place is told
+    assert "hangs: 2 inputs, 2 findings" in done.stdout
