@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import os
 import subprocess
 import sys
 import threading
@@ -130,18 +129,13 @@ def test_importing_bounds_is_light() -> None:
     assert run.returncode == 0, run.stderr
 
 
-DATA = Path(os.environ.get("FIVEROUTE_DATA", "no such folder")) / "benchmarks" / "top-chao"
-
-
-def test_never_below_the_best_known_values() -> None:
+def test_never_below_the_best_known_values(public_file: Callable[[str], Path]) -> None:
     """Every twelfth of Chao's instances."""
-    table = DATA / "best-known.csv"
-    if not table.exists():
-        pytest.skip("set FIVEROUTE_DATA to the folder with benchmarks/top-chao")
+    table = public_file("benchmarks/top-chao/best-known.csv")
     with table.open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))[::12]
     for row in rows:
-        words = (DATA / f"{row['instance']}.txt").read_text(encoding="utf-8").split()
+        words = table.with_name(f"{row['instance']}.txt").read_text(encoding="utf-8").split()
         nodes = np.array(words[6:], dtype=np.float64).reshape(-1, 3)
         travel = np.hypot(*(nodes[:, None, :2] - nodes[:, :2]).transpose(2, 0, 1))
         profit = np.pad(nodes[1:-1, 2], 1)

@@ -2,7 +2,6 @@
 
 import itertools
 import math
-import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -177,14 +176,13 @@ def test_same_answer_every_time() -> None:
     assert (first.order, first.bound) == (second.order, second.bound)
 
 
-@pytest.mark.skipif("FIVEROUTE_DATA" not in os.environ, reason="FIVEROUTE_DATA is not set")
 @pytest.mark.parametrize(
     ("name", "length"),
     [("bays29", 2020), ("att48", 10628), ("eil51", 426), ("st70", 675), ("gr96", 55209)],
 )
-def test_published_optima(name: str, length: int) -> None:
+def test_published_optima(name: str, length: int, public_file: Callable[[str], Path]) -> None:
     """G. Reinelt, TSPLIB 95: explicit, pseudo-Euclidean, rounded and great-circle distances."""
-    file = Path(os.environ["FIVEROUTE_DATA"]) / "benchmarks" / "tsplib" / f"{name}.tsp"
+    file = public_file(f"benchmarks/tsplib/{name}.tsp")
     result = solve_giant_route(read_instance(file).problem(1))
     assert result.status is Status.OPTIMAL
     assert (result.duration, result.bound) == (length, length)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import threading
 from collections.abc import Callable
 from pathlib import Path
@@ -145,14 +144,9 @@ def test_one_auv_does_what_two_cannot() -> None:
     assert flow.solve(alone.with_budgets([2.0, 10.0])).plan == Plan.of([[1], []])
 
 
-DATA = Path(os.environ.get("FIVEROUTE_DATA", "no such folder")) / "benchmarks" / "top-chao"
-
-
 @pytest.mark.parametrize(("name", "optimum"), [("p2.2.d", 160.0), ("p1.3.h", 70.0)])
-def test_published_optima(name: str, optimum: float) -> None:
-    path = DATA / f"{name}.txt"
-    if not path.exists():
-        pytest.skip("set FIVEROUTE_DATA to the folder with benchmarks/top-chao")
+def test_published_optima(name: str, optimum: float, public_file: Callable[[str], Path]) -> None:
+    path = public_file(f"benchmarks/top-chao/{name}.txt")
     words = path.read_text(encoding="utf-8").split()
     rows = np.array(words[6:], dtype=np.float64).reshape(-1, 3)
     travel = np.hypot(*(rows[:, None, :2] - rows[:, :2]).transpose(2, 0, 1))

@@ -1,6 +1,6 @@
 """Two real files: NorKyst-800 (MET Norway) and WCOFS (NOAA); the folder is FIVEROUTE_DATA."""
 
-import os
+from collections.abc import Callable
 from pathlib import Path
 
 import h5py  # type: ignore[import-untyped]
@@ -15,15 +15,9 @@ from fiveroute.ocean.model_source import Source, read_source
 
 Floats = NDArray[np.float64]
 
-NAMES = ("norkyst800_60x60x25h.nc", "WCOFS_subset.nc")
+NAMES = ("currents/norkyst800_60x60x25h.nc", "currents/WCOFS_subset.nc")
 
-
-def real(name: str) -> Path:
-    folder = os.environ.get("FIVEROUTE_DATA")
-    path = Path(folder or ".") / "currents" / name
-    if folder is None or not path.is_file():
-        pytest.skip(f"FIVEROUTE_DATA names no folder with currents/{name}")
-    return path
+Public = Callable[[str], Path]
 
 
 def source(path: Path) -> Source:
@@ -41,8 +35,8 @@ def on_the_map(read: Source, lon: Floats, lat: Floats, w: NDArray[np.complex128]
     return np.asarray(steps) / 100.0
 
 
-def test_norkyst_stands_65_degrees_from_east() -> None:
-    path = real(NAMES[0])
+def test_norkyst_stands_65_degrees_from_east(public_file: Public) -> None:
+    path = public_file(NAMES[0])
     read = source(path)
     assert "65.2 degrees anticlockwise" in read.notes["rotation"]
     with h5py.File(path) as raw:
@@ -61,8 +55,8 @@ def test_norkyst_stands_65_degrees_from_east() -> None:
     np.testing.assert_allclose(np.abs(read.cells.w), np.hypot(u, v), rtol=1e-6)
 
 
-def test_wcofs_is_brought_to_its_cells_and_turned() -> None:
-    path = real(NAMES[1])
+def test_wcofs_is_brought_to_its_cells_and_turned(public_file: Public) -> None:
+    path = public_file(NAMES[1])
     read = source(path)
     with h5py.File(path) as raw:
         names = ("u_sur", "v_sur", "angle", "lon_rho", "lat_rho", "mask_rho")
@@ -84,8 +78,8 @@ def test_wcofs_is_brought_to_its_cells_and_turned() -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_map_keeps_what_the_cells_hold(name: str) -> None:
-    path = real(name)
+def test_the_map_keeps_what_the_cells_hold(name: str, public_file: Public) -> None:
+    path = public_file(name)
     read, current = source(path), read_current(path)
     assert np.isfinite(current.grid.uv).all()
     wet = ~read.cells.land
