@@ -44,6 +44,7 @@ Booleans = NDArray[np.bool_]
 
 _FINER = 2, 4  # points of the map's grid in the spacing of the model's, at least and at most
 _MANY, _TOO_MANY = 8e6, 1e8  # velocities that the map's grid is made finer for, and may hold
+_SPARSE = 1e4, 1e2  # points in the spacing of the model's that any file may take, and each cell
 _NEWTON_STEPS = 12
 _CLOSE = 1e-6  # cells within which Newton's method has arrived
 
@@ -71,9 +72,10 @@ class CellGrid:
 
     @property
     def spacing(self) -> float:
-        """Median distance in metres of neighbours in rows or in columns, the smaller."""
+        """Median distance in metres of neighbours in rows or in columns, the smaller; or NaN."""
         steps = (np.hypot(np.diff(self.x, axis=k), np.diff(self.y, axis=k)) for k in (0, 1))
-        return float(min(np.nanmedian(step) for step in steps))
+        known = (step[np.isfinite(step)] for step in steps)
+        return float(min(np.median(step) if step.size else np.nan for step in known))
 
     def filled(self) -> Complexes:
         """The velocities, those on land taken from the nearest wet cell."""
@@ -200,7 +202,7 @@ def _fineness(cells: CellGrid) -> float:
             "read a smaller surrounding or cut times out of the file",
             field="reach",
         )
-    if points > 1e6 + 100.0 * cells.x.size:
+    if points > _SPARSE[0] + _SPARSE[1] * cells.x.size:
         raise InputError(
             f"takes {points:.1e} points for {cells.x.size} cells; some lie far from the others, "
             "copy the file again",

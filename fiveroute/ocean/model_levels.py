@@ -73,7 +73,7 @@ def choose_level(data: xr.Dataset, name: str, axes: Axes, depth: float) -> Level
     values = data[axes.depth_variable] if axes.depth_variable in data.variables else None
     if values is None or is_sigma(values):
         _only_surface(name, depth, "lies on levels that follow the terrain")
-        top = _top_of_sigma(values)
+        top = _top_of_sigma(values, axes.depth)
         return Level(
             axes.depth,
             top,
@@ -83,7 +83,7 @@ def choose_level(data: xr.Dataset, name: str, axes: Axes, depth: float) -> Level
             None,
             "the surface layer, terrain-following",
         )
-    return _between(name, axes.depth, _depths(values), depth)
+    return _between(name, axes.depth, _depths(values, axes.depth), depth)
 
 
 def _only_surface(name: str, depth: float, reason: str) -> None:
@@ -95,15 +95,14 @@ def _only_surface(name: str, depth: float, reason: str) -> None:
         )
 
 
-def _top_of_sigma(values: xr.DataArray | None) -> int:
+def _top_of_sigma(values: xr.DataArray | None, dimension: str) -> int:
     """The layer nearest to the surface: s = 0 there, -1 at the bottom; ROMS's last one."""
     if values is None:
         return -1
-    s = decoded(values)
-    return int(np.argmin(np.abs(s)))
+    return int(np.argmin(np.abs(_along(values, dimension))))
 
 
-def _depths(values: xr.DataArray) -> Floats:
+def _depths(values: xr.DataArray, dimension: str) -> Floats:
     """Depths of levels in metres, positive down."""
     units = str(values.attrs.get("units", "")).strip().lower()
     is_unstated = units == "" and str(values.name).lower().startswith("depth")
@@ -111,19 +110,25 @@ def _depths(values: xr.DataArray) -> Floats:
         raise InputError(
             "is no unit of depth that can be read; give metres", field=str(values.name), value=units
         )
-    if values.ndim != 1 or values.size == 0:
+    depths = _along(values, dimension)
+    up = str(values.attrs.get("positive", "")).lower() == "up"
+    if up or (depths <= 0.0).all():
+        depths = -depths
+    return depths + 0.0
+
+
+def _along(values: xr.DataArray, dimension: str) -> Floats:
+    """Depths, or levels that follow the terrain, one for each level."""
+    if values.dims != (dimension,) or values.size == 0:
         raise InputError(
             "must hold a depth for each level, along one dimension",
             field=str(values.name),
             value=values.shape,
         )
     depths = decoded(values)
-    up = str(values.attrs.get("positive", "")).lower() == "up"
-    if up or (depths <= 0.0).all():
-        depths = -depths
     if not np.isfinite(depths).all():
         raise InputError("has levels without a depth", field=str(values.name))
-    return depths + 0.0
+    return depths
 
 
 def _between(name: str, dimension: str, depths: Floats, depth: float) -> Level:

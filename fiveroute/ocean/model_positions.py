@@ -8,6 +8,7 @@ latitudes may descend and longitudes run from 0 to 360.
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -29,6 +30,7 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 _TOO_MANY = 200_000_000  # cells
+_WIDEST = 540.0  # degrees of longitude; PROJ takes ten radians
 _EARTH = 6.371e6  # mean radius in metres
 _LENGTHS = {"m": 1.0, "meter": 1.0, "meters": 1.0, "metre": 1.0, "metres": 1.0, "km": 1e3}
 _PROJ = ("proj4", "proj4_params", "proj4text")  # attributes that hold a PROJ string
@@ -132,7 +134,7 @@ def read_positions(
         raise InputError(f"has more than {_TOO_MANY:.0e} cells; cut a part out", field=name)
     positions = _found(data, name, dims, origin)
     with np.errstate(invalid="ignore"):
-        absurd = (np.abs(positions.lat) > 90.001) | (np.abs(positions.lon) > 1080.0)
+        absurd = (np.abs(positions.lat) > 90.001) | (np.abs(positions.lon) > _WIDEST)
     if absurd.any() or not np.isfinite(positions.lon + positions.lat).any():
         raise InputError(
             "has cells at no longitudes and latitudes of the Earth; copy the file again", field=name
@@ -177,7 +179,8 @@ def _in_one_dimension(
     longitudes = np.unwrap(_complete(data[lon]), period=360.0)
     if origin is not None:
         longitudes = origin[0] + (longitudes - origin[0] + 180.0) % 360.0 - 180.0
-    longitudes, columns = np.unique(np.round(longitudes, 9), return_index=True)
+    with np.errstate(over="ignore"):  # what is so large is refused later
+        longitudes, columns = np.unique(np.round(longitudes, 9), return_index=True)
     latitudes, rows = np.unique(_complete(data[lat]), return_index=True)
     lon_2d, lat_2d = np.meshgrid(longitudes, latitudes)
     return Positions(lon_2d, lat_2d, rows, columns, f"{lon}, {lat} along the axes of the grid")
@@ -228,7 +231,11 @@ def _projection(data: xr.Dataset, name: str) -> pyproj.CRS | None:
     attributes = {str(key): _plain(value) for key, value in data[mapping].attrs.items()}
     proj = next((attributes[key] for key in _PROJ if key in attributes), None)
     try:
-        return pyproj.CRS.from_cf(attributes) if proj is None else pyproj.CRS.from_proj4(str(proj))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of ways to write it that went out of fashion
+            if proj is None:
+                return pyproj.CRS.from_cf(attributes)
+            return pyproj.CRS.from_proj4(str(proj))
     except (pyproj.exceptions.CRSError, KeyError) as error:
         raise InputError(f"is no projection that can be read ({error})", field=mapping) from error
 

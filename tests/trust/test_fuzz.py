@@ -97,7 +97,7 @@ def put(sea: Any, name: str, dims: tuple[str, ...], values: Any, **attributes: A
     return sea
 
 
-AXES, ROMS, PROJECTED = (fuzz.spoilt_seas.LAYOUTS[k] for k in (0, 2, 4))
+AXES, PLANE, ROMS, _, PROJECTED = fuzz.spoilt_seas.LAYOUTS
 
 
 @pytest.mark.parametrize(
@@ -124,6 +124,43 @@ AXES, ROMS, PROJECTED = (fuzz.spoilt_seas.LAYOUTS[k] for k in (0, 2, 4))
                 AXES(), "time", ("time",), [0.0, 6.0], units="days since 2020-01-01", add_offset="x"
             ),
             "cannot be read as times",
+        ),
+        (
+            put(
+                AXES(),
+                *("longitude", ("longitude",), [5.0] * 5),
+                units="degrees_east",
+                add_offset=1e308,
+            ),
+            "no longitudes and latitudes of the Earth",
+        ),
+        (
+            put(PLANE(), "lon", ("j", "i"), [[900.0] * 5] * 4, units="degrees_east"),
+            "no longitudes and latitudes of the Earth",
+        ),
+        (
+            put(PLANE(), "lon", ("j", "i"), [[5, 5, 5, 5, 6]] * 4, units="degrees_east"),
+            "points for 20 cells; some lie far from the others",
+        ),
+        (
+            put(
+                PLANE(),
+                *("lon", ("j", "i"), [[5.0, *[fuzz.np.nan] * 4]] + [[fuzz.np.nan] * 5] * 3),
+                units="degrees_east",
+            ),
+            "cells in one place or on one line",
+        ),
+        (
+            put(ROMS(), "s_rho", ("eta_rho", "xi_rho"), [[0.0] * 6] * 5, units="1"),
+            "s_rho: .* must hold a depth for each level",
+        ),
+        (
+            put(ROMS(), "s_rho", ("s_rho",), [fuzz.np.nan, -0.5], positive="up"),
+            "s_rho: has levels without a depth",
+        ),
+        (
+            put(PROJECTED(), "stereo", (), fuzz.np.int32(0), proj4="+init=epsg:4326"),
+            "no longitudes and latitudes of the Earth",
         ),
     ],
 )
