@@ -213,7 +213,8 @@ def _values(sea: Sea, rng: random.Random) -> None:
             np.random.default_rng(rng.getrandbits(32)).permutation(wide.ravel()).reshape(wide.shape)
         )
     elif way == 4:
-        wide = wide * rng.choice((0.0, -1.0, 1e-3, 1e3, 1e30))
+        with np.errstate(invalid="ignore"):
+            wide = wide * rng.choice((0.0, -1.0, 1e-3, 1e3, 1e30))
     elif way == 5:
         wide = wide + rng.choice((180.0, 360.0, -360.0, 90.0, 1e6))
     elif way == 6:

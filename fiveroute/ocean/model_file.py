@@ -153,7 +153,7 @@ def decoded_times(variable: xr.DataArray) -> Times:
             warnings.simplefilter("ignore")  # of fill values, with which what they hit is no time
             held = xr.Dataset({"time": (variable.dims, variable.values, variable.attrs)})
             read = xr.decode_cf(held)["time"].values
-    except (ValueError, OverflowError, TypeError) as error:
+    except (ValueError, OverflowError, TypeError, ImportError) as error:  # cftime has no place here
         raise InputError(
             "cannot be read as times; CF writes 'seconds since 1970-01-01 00:00:00'",
             field=f"{variable.name}.units",

@@ -128,6 +128,15 @@ AXES, PLANE, ROMS, _, PROJECTED = fuzz.spoilt_seas.LAYOUTS
         (
             put(
                 AXES(),
+                *("time", ("time",), [0.0, 6.0]),
+                units="days since 2020-01-01",
+                scale_factor=1e37,
+            ),
+            "cannot be read as times",
+        ),
+        (
+            put(
+                AXES(),
                 *("longitude", ("longitude",), [5.0] * 5),
                 units="degrees_east",
                 add_offset=1e308,
