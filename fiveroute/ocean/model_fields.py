@@ -97,7 +97,14 @@ def read_window(
     -------
     array
         In the units of the variable, NaN where there is none, shape (..., rows, columns).
+
+    Raises
+    ------
+    InputError
+        If the variable is empty.
     """
+    if variable.size == 0:
+        raise InputError("is empty; cut the file anew", field=str(variable.name))
     cut: dict[str, int | slice] = {}
     for dim in map(str, variable.dims):
         if dim not in (*first, *dims):

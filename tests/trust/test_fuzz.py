@@ -93,6 +93,7 @@ def test_what_was_found_once(name: str, content: bytes, tmp_path: Path) -> None:
 
 def put(sea: Any, name: str, dims: tuple[str, ...], values: Any, **attributes: Any) -> Any:
     """The same sea with a variable written over; its attributes stay where none are given."""
+    sea.sizes |= dict(zip(dims, fuzz.np.shape(values), strict=True))
     sea.add(name, dims, values, **(attributes or sea.variables[name][2]))
     return sea
 
@@ -110,6 +111,10 @@ AXES, PLANE, ROMS, _, PROJECTED = fuzz.spoilt_seas.LAYOUTS
                 AXES(), "longitude", ("longitude",), [1.0] * 5, units="degrees", scale_factor=1e999
             ),
             "is no number with its scale_factor",
+        ),
+        (
+            put(PLANE(), "mask_rho", ("none", "j", "i"), fuzz.np.ones((0, 4, 5)), units="1"),
+            "mask_rho: is empty",
         ),
         (
             put(PROJECTED(), "y", ("y",), [0.0, 1e3, 2e3, 3e3], axis="X", units="m"),
