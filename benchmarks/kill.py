@@ -2,10 +2,11 @@
 
     python benchmarks/kill.py COMMAND|all [--count N] [--seed N]
 
-A command is carried out twice, which gives its time and its files. Then it is started again and
-again over them, in every other run with the files taken away before, and killed (SIGKILL) after a
-random time, half of them in the last fifth, where it writes. After each kill every file must be
-whole, or missing where it was missing; only hidden drafts may lie beside them.
+A command is carried out twice, which gives its time, when it begins to write, and its files. Then
+it is started again and again over them, in every other run with the files taken away before, and
+killed (SIGKILL) at a random time: half of the times at any, half of them as soon as it has begun
+to write and as long as it writes. After each kill every file must be whole, or missing where it was
+missing; only hidden drafts may lie beside them.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ import sys
 import tempfile
 import time
 import zipfile
+from contextlib import suppress
 from pathlib import Path
 
 import xarray
@@ -55,8 +57,10 @@ COMMANDS = {
     "--picture new.pdf",
     "experiment": "experiment preplanning --scenarios 1 --output new",
     "stochastic": "experiment stochastic --scenarios 1 --runs 2 --workers 1 --output new",
-    "coordination": "experiment coordination --scenarios 0 --runs 2 --output new",
+    "coordination": "experiment coordination --scenarios 0 --runs 1 --output new",
 }
+
+_POLL = 0.0005  # seconds between two looks
 
 
 def is_whole(path: Path) -> bool:
@@ -107,6 +111,34 @@ def started(arguments: list[str], folder: Path) -> int:
         os._exit(99)
 
 
+def has_ended(child: int) -> bool:
+    """Whether a process is over; it can still be waited for."""
+    return os.waitid(os.P_PID, child, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None
+
+
+def wait(child: int, seconds: float) -> None:
+    """Wait for some time, or to the end of a process."""
+    until = time.monotonic() + seconds
+    while time.monotonic() < until and not has_ended(child):
+        time.sleep(min(_POLL, max(until - time.monotonic(), 0.0)))
+
+
+def wait_for_a_change(child: int, folder: Path) -> None:
+    """Wait until a process changes anything in a folder, or to its end."""
+    before = state(folder)
+    while state(folder) == before and not has_ended(child):
+        time.sleep(_POLL)
+
+
+def state(folder: Path) -> frozenset[tuple[str, int]]:
+    """What lies in a folder, and when each was changed; not all of it if some goes meanwhile."""
+    found = set()
+    with suppress(FileNotFoundError):
+        for path in folder.rglob("*"):
+            found.add((str(path), path.lstat().st_mtime_ns))
+    return frozenset(found)
+
+
 def seen(folder: Path, inputs: frozenset[str]) -> frozenset[str]:
     """Files of a command, without its inputs, its drafts and the journals of its runs."""
     names = (str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
@@ -142,16 +174,23 @@ def run(name: str, count: int, seed: int) -> int:
         shutil.copytree(folder, before)
         for _ in range(2):  # the first one may compile kernels
             begun = time.monotonic()
-            _, status = os.waitpid(started(arguments, folder), 0)
+            child = started(arguments, folder)
+            wait_for_a_change(child, folder)
+            first = time.monotonic()
+            _, status = os.waitpid(child, 0)
             assert status == 0, name
-        whole, seconds = seen(folder, inputs), time.monotonic() - begun
+        whole, end = seen(folder, inputs), time.monotonic()
         shutil.copytree(folder, after)
         assert whole, name
         killed = drafts = findings = 0
         for k in range(count):
             reset(folder, before if k % 2 else after)
             child = started(arguments, folder)
-            time.sleep(seconds * rng.choice((rng.random(), rng.uniform(0.8, 1.1))))
+            if rng.random() < 0.5:
+                wait(child, rng.uniform(0.0, end - begun))
+            else:
+                wait_for_a_change(child, folder)
+                wait(child, rng.uniform(0.0, end - first))
             os.kill(child, signal.SIGKILL)
             _, status = os.waitpid(child, 0)
             killed += status == signal.SIGKILL
@@ -160,7 +199,7 @@ def run(name: str, count: int, seed: int) -> int:
                 sys.stdout.write(f"{name}: {fault}\n")
             drafts += reset(folder, before)
     sys.stdout.write(
-        f"{name}: {count} runs of {seconds:.2f} s, {killed} killed, {drafts} of them while "
+        f"{name}: {count} runs of {end - begun:.2f} s, {killed} killed, {drafts} of them while "
         f"writing, {findings} findings\n"
     )
     sys.stdout.flush()
