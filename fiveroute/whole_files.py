@@ -6,6 +6,7 @@ in a single step. Whoever is interrupted leaves the old file or the new one, nev
 
 from __future__ import annotations
 
+import errno
 import os
 import secrets
 from collections.abc import Iterator
@@ -17,14 +18,23 @@ __all__ = ["written_whole"]
 
 @contextmanager
 def written_whole(path: Path) -> Iterator[Path]:
-    """A draft beside a file, with its suffix, that takes the file's place if all goes well."""
-    draft = path.with_name(f".{path.stem[:80]}.{secrets.token_hex(6)}{path.suffix[:20]}")
+    """A draft beside a file, with its suffix, that takes the file's place if all goes well.
+
+    A symbolic link is followed. A device or a pipe is handed out itself: it has no place to take.
+    """
+    target = Path(os.path.realpath(path))
+    if target.is_symlink():
+        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
+    if target.exists() and not target.is_file():
+        yield target
+        return
+    draft = target.with_name(f".{target.stem[:80]}.{secrets.token_hex(6)}{path.suffix[:20]}")
     try:
         yield draft
         with draft.open("rb") as stream:
             os.fsync(stream.fileno())  # the name must not be on the disk before the content is
-        if path.exists():
-            draft.chmod(path.stat().st_mode)
-        draft.replace(path)
+        if target.exists():
+            draft.chmod(target.stat().st_mode)
+        draft.replace(target)
     finally:
         draft.unlink(missing_ok=True)

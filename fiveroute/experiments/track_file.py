@@ -7,6 +7,7 @@ AUV in one run.
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -99,10 +100,21 @@ def write_tracks(
     require_tracks(path, force)
     data = trajectories(instance, runs)
     try:
-        with written_whole(path.resolve()) as draft:
-            data.to_netcdf(draft, engine="h5netcdf")
+        with written_whole(path) as draft:
+            draft.write_bytes(_netcdf(data))
     except OSError as error:
         raise InputError(f"cannot be written ({error.strerror})", file=path) from None
+
+
+def _netcdf(data: xr.Dataset) -> bytes:
+    """A file in memory: on a disk that is full the HDF5 library ends the process."""
+    import h5netcdf  # type: ignore[import-untyped]
+    from xarray.backends import H5NetCDFStore
+
+    content = io.BytesIO()
+    with h5netcdf.File(content, "w") as file:
+        data.dump_to_store(H5NetCDFStore(file))
+    return content.getvalue()
 
 
 def _places(instance: Instance, positions: Floats) -> dict[str, Any]:

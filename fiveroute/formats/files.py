@@ -191,11 +191,8 @@ def write_text_atomically(path: Path, text: str, force: bool = False) -> None:
     """
     require_writable(path, force)
     try:
-        if path.exists() and not path.is_file():
-            path.write_text(text, encoding="utf-8", newline="\n")
-        else:
-            with written_whole(path.resolve()) as draft:
-                draft.write_text(text, encoding="utf-8", newline="\n")
+        with written_whole(path) as draft:
+            draft.write_text(text, encoding="utf-8", newline="\n")
     except (OSError, ValueError) as error:
         raise InputError(_reason(error, "written"), file=path) from None
 

@@ -71,7 +71,7 @@ def _write_parquet(rows: Sequence[Mapping[str, Any]], path: Path) -> None:
     import pyarrow.parquet
 
     try:
-        with written_whole(path.resolve()) as draft:
+        with written_whole(path) as draft:
             pyarrow.parquet.write_table(pyarrow.Table.from_pylist(list(rows)), draft)
     except OSError as error:
         told = f"cannot be written ({error.strerror or error}); check the name and the disk"

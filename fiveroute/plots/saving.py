@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 from pathlib import Path
 
@@ -30,4 +31,6 @@ def save(path: Path, write: Callable[[Path], object]) -> None:
 
 def save_figure(figure: Figure, path: Path) -> None:
     """Write a figure; the suffix chooses the format."""
-    save(path, lambda draft: figure.savefig(draft, dpi=150))
+    drawn = io.BytesIO()  # a disk that is full while matplotlib writes makes it fail otherwise
+    figure.savefig(drawn, format=path.suffix[1:], dpi=150)
+    save(path, lambda draft: draft.write_bytes(drawn.getvalue()))

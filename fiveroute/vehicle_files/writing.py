@@ -30,7 +30,7 @@ def write_archive(path: Path, files: dict[str, str], force: bool) -> None:
         for name, text in files.items():
             archive.writestr(zipfile.ZipInfo(name, _EPOCH), text)
     try:
-        with written_whole(path.resolve()) as draft:
+        with written_whole(path) as draft:
             draft.write_bytes(packed.getvalue())
     except OSError as error:
         raise _unwritable(path, error) from None
@@ -52,6 +52,8 @@ def write_folder(
     force
         Replace a folder that holds nothing but files with such endings.
     """
+    if folder.name in ("", ".."):
+        raise InputError("cannot take the place of this folder; name a new one", file=folder)
     draft = folder.with_name(f".{folder.name[:80]}.{secrets.token_hex(6)}")
     try:
         _require_replaceable(folder, suffixes, force)

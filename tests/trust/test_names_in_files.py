@@ -88,6 +88,15 @@ def test_a_folder_takes_the_place_of_another_in_one_step(tmp_path: Path) -> None
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
 
 
+@pytest.mark.parametrize("folder", [".", "..", "/"])
+def test_a_folder_without_a_name_of_its_own_is_left_alone(
+    folder: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InputError, match="cannot take the place of this folder"):
+        write_folder(Path(folder), {"a.plan": "new"}, (".plan",), force=True)
+
+
 def test_ids_that_are_names_of_files_are_read_and_written_as_they_are(plan: PlanFile) -> None:
     assert [node.id for node in plan.instance.nodes] == list(HOSTILE)
     again = json.loads(json.dumps([node.id for node in replace(SEA, name="x").nodes]))

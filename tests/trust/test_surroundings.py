@@ -7,9 +7,15 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
+
+from fiveroute.formats import PlanFile, write_instance, write_plan
+from fiveroute.generate import generate
+from fiveroute.result import Result
+from fiveroute.routes import Plan
 
 ROOT = Path(__file__).parents[2]
 GENERATE = ("generate", "uniform", "--nodes", "300", "--output")
@@ -47,10 +53,10 @@ def told(done: subprocess.CompletedProcess[str]) -> str:
     return line
 
 
-def small_files() -> None:
+def small_files(size: int = 1024) -> None:
     """A disk on which every file is full after a kilobyte."""
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (1024, 1024))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
 
 def test_a_full_disk(run: Run, tmp_path: Path) -> None:
@@ -59,6 +65,26 @@ def test_a_full_disk(run: Run, tmp_path: Path) -> None:
     assert "sea.json: cannot be written (File too large)" in told(done)
     assert (tmp_path / "sea.json").read_text() == "old"
     assert [path.name for path in tmp_path.iterdir()] == ["sea.json"]
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "view bay.plan.json --output new.pdf",
+        "simulate bay.json bay.plan.json --runs 1 --workers 1 --tracks new.nc",
+    ],
+)
+def test_a_disk_that_is_full_before_a_library_has_written(
+    command: str, run: Run, tmp_path: Path
+) -> None:
+    bay = generate("uniform", nodes=3, seed=1, fleet_size=1, currents="none")
+    write_instance(bay, tmp_path / "bay.json")
+    legs = bay.problem(1)
+    result = Result.judged(legs, Plan.of([[1, 2]]), method="by-hand", seconds=0.0)
+    write_plan(PlanFile.of(bay, legs, result), tmp_path / "bay.plan.json")
+    done = run(*command.split(), preexec_fn=partial(small_files, 12288))
+    assert "cannot be written (File too large)" in told(done)
+    assert {path.name for path in tmp_path.iterdir()} == {"bay.json", "bay.plan.json"}
 
 
 @pytest.mark.parametrize(
@@ -100,6 +126,11 @@ def test_nobody_listens(run: Run, tmp_path: Path) -> None:
     done = run(*GENERATE, "sea.json", preexec_fn=close)
     assert done.returncode == 0
     assert json.loads((tmp_path / "sea.json").read_text())["name"]
+
+
+def test_an_output_that_is_a_link_to_itself(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "sea.json").symlink_to("sea.json")
+    assert "sea.json: cannot be written (Too many levels" in told(run(*GENERATE, "sea.json"))
 
 
 def test_a_poor_environment(run: Run, tmp_path: Path) -> None:
