@@ -60,7 +60,7 @@ COMMANDS = {
     "coordination": "experiment coordination --scenarios 0 --runs 1 --output new",
 }
 
-_POLL = 0.0005  # seconds between two looks
+_POLL = 0.002  # seconds between two looks
 
 
 def is_whole(path: Path) -> bool:

@@ -83,7 +83,10 @@ def test_a_disk_that_is_full_before_a_library_has_written(
     result = Result.judged(legs, Plan.of([[1, 2]]), method="by-hand", seconds=0.0)
     write_plan(PlanFile.of(bay, legs, result), tmp_path / "bay.plan.json")
     done = run(*command.split(), preexec_fn=partial(small_files, 12288))
-    assert "cannot be written (File too large)" in told(done)
+    assert done.returncode == 2
+    *notes, line = done.stderr.splitlines()
+    assert "cannot be written (File too large)" in line
+    assert all("compiling its kernels" in note for note in notes)
     assert {path.name for path in tmp_path.iterdir()} == {"bay.json", "bay.plan.json"}
 
 
