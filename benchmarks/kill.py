@@ -148,7 +148,7 @@ def seen(folder: Path, inputs: frozenset[str]) -> frozenset[str]:
 
 def reset(folder: Path, model: Path) -> int:
     """Make a folder the same as another one; the number of drafts that were in it."""
-    drafts = sum(path.name.startswith(".") for path in folder.iterdir())
+    drafts = sum(path.name.startswith(".") for path in folder.rglob("*"))
     shutil.rmtree(folder)
     shutil.copytree(model, folder)
     return drafts
