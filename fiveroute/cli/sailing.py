@@ -17,7 +17,7 @@ from fiveroute.paths.voyage import Voyage
 if TYPE_CHECKING:
     from fiveroute.cli.running import Outcome
 
-__all__ = ["answer_plan", "name_unreachable", "sail"]
+__all__ = ["answer_plan", "sail", "tell_of"]
 
 
 def sail(
@@ -54,15 +54,17 @@ def sail(
         seed=seed,
         progress=progress,
     )
-    name_unreachable(voyage)
+    tell_of(voyage)
     return voyage
 
 
-def name_unreachable(voyage: Voyage) -> None:
-    """Say on standard error which nodes cannot be reached, if any."""
+def tell_of(voyage: Voyage) -> None:
+    """Say on standard error which nodes cannot be reached, and if legs were planned in haste."""
     if voyage.unreachable:
         why = "cannot be reached" if voyage.is_complete else "have no path yet"
         note(f"these nodes {why} and are not visited: {', '.join(voyage.unreachable)}")
+    if voyage.hasty is not None:
+        note("time ran out while legs were planned, so that some take longer than they need to")
 
 
 def answer_plan(
@@ -92,7 +94,7 @@ def answer_plan(
     from fiveroute.cli import answers
 
     plan = outcome.value
-    name_unreachable(plan.voyage)
+    tell_of(plan.voyage)
     if output is not None and plan.result.plan is not None:
         plan.save(output, force=force, source=source)
     answer = answers.fleet_plan_answer(plan)

@@ -107,7 +107,7 @@ def command(
     """Carry PLAN out in the uncertain ocean of INSTANCE; without PLAN, plan first."""
     from fiveroute.cli import answers
     from fiveroute.cli.running import run
-    from fiveroute.cli.sailing import name_unreachable
+    from fiveroute.cli.sailing import tell_of
     from fiveroute.fleet_runs import prepare
     from fiveroute.formats import read_instance
     from fiveroute.formats.plan_file import read_plan
@@ -135,7 +135,7 @@ def command(
             progress=progress,
             folder=instance.parent,
         )
-        name_unreachable(pier.voyage)
+        tell_of(pier.voyage)
         result = sail_campaign(
             Campaign(pier.theatre, pier.routes, choices["runs"], _steering(config)),
             workers=workers,

@@ -195,3 +195,11 @@ def test_gap_and_giant_route_in_the_ocean(call: Any, sea: Any) -> None:
     assert route["status"] == "optimal"
     assert route["duration"] != pytest.approx(still["duration"], rel=1e-3)
     assert call("gap", file, "--json").doc["rows"][0]["nodes"] == 3
+
+
+def test_legs_planned_in_haste_are_told(call: Any, sea: Any) -> None:
+    eddy = {"x": 1000.0, "y": 900.0, "circulation": 900.0, "radius": 300.0}
+    file = sea(currents={"vortices": [eddy]})
+    hasty = call("plan", file, "--time-limit", 1e-3, "--json")
+    assert "time ran out while legs were planned" in hasty.err
+    assert "time ran out" not in call("plan", file, "--json").err
