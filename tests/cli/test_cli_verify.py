@@ -1,7 +1,6 @@
 import json
 import os
 import signal
-import threading
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +10,7 @@ import pytest
 
 from fiveroute.formats import PlanFile, write_instance, write_plan
 from fiveroute.generate import generate
+from fiveroute.paths.evolved_path import evolve_path
 from fiveroute.result import Result
 from fiveroute.routes import Plan
 from fiveroute.tiers import pathing
@@ -95,20 +95,23 @@ def test_ctrl_c_while_the_paths_are_planned_is_no_verdict(
     call: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A plan without paths takes the fastest ones; before they are known nothing can be said."""
-    sea = generate("paper", nodes=150, seed=1, fleet_size=1)
+    sea = generate("paper", nodes=20, seed=1, fleet_size=1)
     sea = replace(sea, fleet=replace(sea.fleet, endurance=1e7))
     straight = sea.problem(1)
-    result = Result.judged(straight, Plan.of([range(1, 151)]), method="by-hand", seconds=0.0)
+    result = Result.judged(straight, Plan.of([range(1, 21)]), method="by-hand", seconds=0.0)
     write_instance(sea, tmp_path / "sea.json")
     write_plan(PlanFile.of(sea, straight, result), tmp_path / "plan.json")
-    planned = pathing.plan_legs
+    signals: list[int] = []
 
-    def interrupted(*given: Any, **more: Any) -> Any:
-        threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT)).start()
-        return planned(*given, **more)
+    def interrupting(*given: Any, **more: Any) -> Any:
+        if not signals:
+            signals.append(signal.SIGINT)
+            os.kill(os.getpid(), signal.SIGINT)
+        return evolve_path(*given, **more)
 
-    monkeypatch.setattr(pathing, "plan_legs", interrupted)
+    monkeypatch.setattr(pathing, "evolve_path", interrupting)
     answer = call("verify", tmp_path / "sea.json", tmp_path / "plan.json")
+    assert signals
     assert answer.code == 130
     assert answer.err.split("\n")[-2:] == ["fiveroute: interrupted", ""]
     assert answer.out == ""
