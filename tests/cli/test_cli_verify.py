@@ -1,7 +1,7 @@
 import json
 import os
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -91,6 +91,15 @@ def test_a_certificate_says_itself_what_it_is_of(call: Any, tiny: Path) -> None:
     assert "--straight-lines is for PLAN" in answer.err
 
 
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    """A process that hears Ctrl-C, even if it was started in the background."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_while_the_paths_are_planned_is_no_verdict(
     call: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
