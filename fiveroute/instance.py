@@ -7,6 +7,7 @@ solvers never see an instance: they see the `TeamOrienteering` problem it turns 
 
 from __future__ import annotations
 
+import math
 import re
 from typing import Annotated
 
@@ -125,6 +126,12 @@ class Fleet:
     turning_radius: NonNegativeFloat = TURNING_RADIUS
     depth: NonNegativeFloat | None = None
     depth_rating: PositiveFloat | None = None
+
+    def endurance_of(self, auv: int) -> float:
+        """T_max of one AUV, counted from 0, in seconds; infinite where none is stated."""
+        if isinstance(self.endurance, tuple):
+            return self.endurance[auv]
+        return math.inf if self.endurance is None else self.endurance
 
 
 @dataclass(frozen=True, slots=True, config=_STRICT)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-__all__ = ["clock", "counted"]
+__all__ = ["ENDLESS", "clock", "counted"]
+
+ENDLESS = 1e6
+"""A gap as only a plan has that collects nothing, or as good as nothing."""
 
 
 def clock(seconds: float) -> str:

@@ -13,7 +13,7 @@ import click
 from fiveroute.instance import Instance
 from fiveroute.result import GiantRouteResult, Status
 from fiveroute.routes import Route
-from fiveroute.words import clock
+from fiveroute.words import ENDLESS, clock
 
 if TYPE_CHECKING:
     from fiveroute.fleet_plan import FleetPlan
@@ -41,9 +41,6 @@ __all__ = [
     "simulation_answer",
     "verify_answer",
 ]
-
-_ENDLESS = 1e6
-"""A gap as only a plan has that collects nothing, or as good as nothing."""
 
 _WIDE = 160
 """Characters in a line of a table where there is no terminal that has a width of its own."""
@@ -325,6 +322,6 @@ def gap_text(gap: float | None) -> str:
     """A gap as people read it."""
     if gap is None:
         return "unknown"
-    if gap > _ENDLESS:
+    if gap > ENDLESS:
         return "endless (nothing collected)"
     return "0 (optimal)" if gap == 0.0 else f"{100 * gap:.2f} %"

@@ -16,14 +16,11 @@ import numpy as np
 from fiveroute.fleet_plan import FleetPlan
 from fiveroute.limits import Clock, Limits, Progress, ProgressCallback
 from fiveroute.problem import completion_rate
-from fiveroute.words import clock
+from fiveroute.words import ENDLESS, clock
 
 __all__ = ["Row", "Sweep", "figures", "heading", "seen_columns", "shown", "vary"]
 
 _ONLY_IN_FILES = {"routes", "bound", "objective", "held_out_p25", "held_out_p75", "unreachable"}
-_ENDLESS = 1e6
-"""A gap as only a plan has that collects nothing, or as good as nothing."""
-
 _DATES = {"departure"}
 _TIMES = {"endurance", "mean_duration"}
 _SHARES = {"completion_rate", "bound_rate", "gap", "late_share", "p5", "p95"}
@@ -167,7 +164,7 @@ def shown(name: str, value: Value) -> str:
     if name in _TIMES:
         return clock(value)
     if name in _SHARES or name.startswith(("training_", "held_out_")):
-        return f"{100.0 * value:.1f} %" if value < _ENDLESS else "endless"
+        return f"{100.0 * value:.1f} %" if value < ENDLESS else "endless"
     return f"{value:.4g}"
 
 

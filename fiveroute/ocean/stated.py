@@ -1,4 +1,4 @@
-"""The current that a mission states: its parts put together."""
+"""The current and the barriers that a mission states: their parts put together."""
 
 from __future__ import annotations
 
@@ -9,12 +9,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fiveroute.instance import Instance
+from fiveroute.ocean.barriers import Barriers
+from fiveroute.ocean.current_grid import Region
 from fiveroute.ocean.currents import Current, LambVortices, Superposition, UniformCurrent
+from fiveroute.ocean.land_mask import land_distance
+from fiveroute.ocean.obstacles import barriers_of
 
 if TYPE_CHECKING:
     from fiveroute.ocean.model_current import ModelCurrent
 
-__all__ = ["stated_current"]
+__all__ = ["stated_barriers", "stated_current"]
 
 
 def stated_current(instance: Instance, folder: Path | None = None) -> Superposition:
@@ -44,6 +48,29 @@ def stated_current(instance: Instance, folder: Path | None = None) -> Superposit
         what = instance.origin, currents.depth, currents.begin
         parts.append(_filed_current(file, _stamp(file), *what))
     return Superposition(tuple(parts))
+
+
+def stated_barriers(
+    instance: Instance, current: Superposition, region: Region | None = None
+) -> Barriers:
+    """Obstacles and land of an instance and its file of currents, with the margin to be kept.
+
+    Parameters
+    ----------
+    instance
+        The instance.
+    current
+        Its current, see `stated_current`.
+    region
+        Where paths must stay; None lets them go anywhere.
+    """
+    from fiveroute.ocean.model_current import ModelCurrent
+
+    land = None
+    for part in current.parts:
+        if isinstance(part, ModelCurrent):
+            land = land_distance(part.closed, part.west, part.south, part.step)
+    return barriers_of(instance.ocean, region, margin=instance.ocean.margin, land=land)
 
 
 @lru_cache(maxsize=1)

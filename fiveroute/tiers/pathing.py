@@ -32,10 +32,9 @@ from fiveroute.kernels import source_digest
 from fiveroute.limits import Clock, Limits, Progress, ProgressCallback
 from fiveroute.ocean.current_grid import Region, grid_current
 from fiveroute.ocean.currents import Current, Superposition
-from fiveroute.ocean.land_mask import land_distance
 from fiveroute.ocean.model_current import ModelCurrent
-from fiveroute.ocean.obstacles import barriers_of, refuse_points_inside
-from fiveroute.ocean.stated import stated_current
+from fiveroute.ocean.obstacles import refuse_points_inside
+from fiveroute.ocean.stated import stated_barriers, stated_current
 from fiveroute.paths.evolved_path import THOROUGH, evolve_path
 from fiveroute.paths.leg_cache import keep_table, kept_table, table_key
 from fiveroute.paths.leg_table import LegTable
@@ -174,18 +173,15 @@ def waters_of(instance: Instance, current: Superposition, *, duration: float = 0
         If start, destination or a node lies inside an obstacle or on land, or beyond what the
         file of currents covers.
     """
-    region, land = _region(instance), None
+    region = _region(instance)
     current(*instance.points.T)  # refuses stops beyond the data
-    parts: list[Current] = []
-    for part in current.parts:
-        if isinstance(part, ModelCurrent):
-            land = land_distance(part.closed, part.west, part.south, part.step)
-            parts.append(replace(part, extends=True))
-        else:
-            parts.append(part)
-    current = Superposition(tuple(parts))
-    barriers = barriers_of(instance.ocean, region, margin=instance.ocean.margin, land=land)
+    barriers = stated_barriers(instance, current, region)
     refuse_points_inside(instance, barriers)
+    parts = (
+        replace(part, extends=True) if isinstance(part, ModelCurrent) else part
+        for part in current.parts
+    )
+    current = Superposition(tuple(parts))
     return Waters(
         grid_current(current, region, duration=duration, tolerance=_ERROR),
         barriers,

@@ -9,7 +9,6 @@ has the last word: a leg that it finds fault with keeps all of its waypoints.
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -19,12 +18,9 @@ from numpy.typing import NDArray
 
 from fiveroute.check_paths import check_paths, sailing_time
 from fiveroute.formats.plan_file import PlanFile
-from fiveroute.instance import Instance
 from fiveroute.ocean.barriers import Barriers
 from fiveroute.ocean.currents import Superposition
-from fiveroute.ocean.land_mask import land_distance
-from fiveroute.ocean.model_current import ModelCurrent
-from fiveroute.ocean.obstacles import barriers_of
+from fiveroute.ocean.stated import stated_barriers
 from fiveroute.paths.legs import track_clearance
 from fiveroute.paths.thinning import thinned
 from fiveroute.vehicle_files.safety import require_feasible, require_passable
@@ -63,7 +59,7 @@ def safe_tracks(
     assert tracks is not None
     require_passable(filed, tracks, current)
     require_feasible(sailed, folder)
-    barriers = _barriers(filed.instance, current)
+    barriers = stated_barriers(filed.instance, current)
     thin = [
         _in_time(filed, auv, paths, current, barriers, tolerance)
         for auv, paths in enumerate(tracks)
@@ -92,30 +88,13 @@ def _in_time(
         return clear >= 0.0 or clear >= track_clearance(barriers, stretch)
 
     service = float(filed.instance.service_times[list(filed.plan.routes[auv])].sum())
-    off, left = tolerance, _endurance(filed.instance, auv) - service
+    off, left = tolerance, filed.instance.fleet.endurance_of(auv) - service
     while off >= tolerance / _FINEST and off > 0.0:
         thin = [thinned(path, off, is_clear) for path in paths]
         if sum(sailing_time(path, current, filed.instance.fleet.speed) for path in thin) <= left:
             return thin
         off /= _FINER
     return list(paths)
-
-
-def _barriers(instance: Instance, current: Superposition) -> Barriers:
-    """Obstacles and land, with the margin that the instance wants to be kept."""
-    land = [
-        land_distance(part.closed, part.west, part.south, part.step)
-        for part in current.parts
-        if isinstance(part, ModelCurrent)
-    ]
-    return barriers_of(instance.ocean, margin=instance.ocean.margin, land=land[0] if land else None)
-
-
-def _endurance(instance: Instance, auv: int) -> float:
-    endurance = instance.fleet.endurance
-    if isinstance(endurance, tuple):
-        return endurance[auv]
-    return math.inf if endurance is None else endurance
 
 
 def _straight(filed: PlanFile) -> tuple[tuple[tuple[tuple[float, float], ...], ...], ...]:

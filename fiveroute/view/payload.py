@@ -85,11 +85,10 @@ def _depth(stated: float | None, instance: Instance) -> float | None:
 
 
 def _budgets(scene: Scene) -> list[float] | None:
-    endurance = scene.instance.fleet.endurance
-    if endurance is None:
+    fleet = scene.instance.fleet
+    if fleet.endurance is None:
         return None
-    size = len(scene.routes.routes)
-    return list(endurance) if isinstance(endurance, tuple) else [endurance] * size
+    return [fleet.endurance_of(auv) for auv in range(len(scene.routes.routes))]
 
 
 def _barriers(instance: Instance) -> list[dict[str, Any]]:
