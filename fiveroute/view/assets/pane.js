@@ -1,5 +1,8 @@
 // One map: a scene, the plan or one run of it, its figures, and what the pointer does.
 
+/** Nodes beyond which a map draws only those again that change. */
+const MANY_NODES = 2000;
+
 class Pane {
   constructor(app, scenes, which, run) {
     this.app = app;
@@ -127,7 +130,9 @@ class Pane {
     this.drawStill(view, theme, shows, width, height);
     context.drawImage(this.sea, 0, 0, width, height);
     drawSailed(context, view, this.timeline, theme, t);
-    const key = this.app.editor ? "" : this.viewKey(view, theme); // an editor moves nodes about
+    // an editor moves nodes about, and a node that is wiped takes a bite out of those it touches
+    const isKept = !this.app.editor && this.scene.ids.length > MANY_NODES;
+    const key = isKept ? this.viewKey(view, theme) : "";
     this.nodes.draw(this.canvas, key, view, this.scene, this.timeline, theme, t);
     context.drawImage(this.nodes.canvas, 0, 0, width, height);
     if (shows.names) drawNames(context, view, this.scene, theme);
