@@ -120,6 +120,7 @@ def test_a_day_at_the_studio(browser: Any, studio: Studio, mission_path: Path) -
     visit.expect("#stop-title").to_have_text("Node n5")
     page.keyboard.press("Delete")
     visit.expect("#stop-title").to_have_text("Stops")
+    visit.expect("#gap-words").to_contain_text("of 14.5")  # the server has heard of it as well
     assert [node.id for node in session.version.instance.nodes] == ["a", "b", "far", "n4"]
     plan(visit)
 
