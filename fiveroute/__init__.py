@@ -16,10 +16,12 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from fiveroute.errors import FiverouteError, InputError
-    from fiveroute.fleet_plan import FleetPlan, plan, read, read_plan, solve
+    from fiveroute.fleet_plan import FleetPlan
+    from fiveroute.fleet_planning import plan, solve
     from fiveroute.fleet_runs import simulate
     from fiveroute.instance import Instance
     from fiveroute.limits import Limits, Progress
+    from fiveroute.reading import read, read_plan
     from fiveroute.result import Status
 
 __version__ = "0.1.0"
@@ -47,11 +49,11 @@ _HOMES = {
     "Limits": "fiveroute.limits",
     "Progress": "fiveroute.limits",
     "Status": "fiveroute.result",
-    "plan": "fiveroute.fleet_plan",
-    "read": "fiveroute.fleet_plan",
-    "read_plan": "fiveroute.fleet_plan",
+    "plan": "fiveroute.fleet_planning",
+    "read": "fiveroute.reading",
+    "read_plan": "fiveroute.reading",
     "simulate": "fiveroute.fleet_runs",
-    "solve": "fiveroute.fleet_plan",
+    "solve": "fiveroute.fleet_planning",
 }
 
 

@@ -19,10 +19,12 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from fiveroute.errors import InputError
-from fiveroute.fleet_plan import FleetPlan, reachable_routes, sail
+from fiveroute.fleet_plan import FleetPlan
+from fiveroute.fleet_planning import sail
 from fiveroute.instance import Instance
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.paths.voyage import Voyage
+from fiveroute.reading import reachable_routes
 from fiveroute.routes import Plan
 
 if TYPE_CHECKING:

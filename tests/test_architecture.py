@@ -92,9 +92,11 @@ FORBIDDEN = [  # (who, whom, why)
         (
             "fiveroute.decide",
             "fiveroute.fleet_plan",
+            "fiveroute.fleet_planning",
             "fiveroute.fleet_runs",
             "fiveroute.peers",
             "fiveroute.plots",
+            "fiveroute.reading",
             "fiveroute.studio",
             "fiveroute.vehicle_files",
             "fiveroute.view",

@@ -89,7 +89,7 @@ def command(
     from fiveroute.cli.files import require_output
     from fiveroute.cli.running import run
     from fiveroute.cli.sailing import answer_plan
-    from fiveroute.fleet_plan import plan
+    from fiveroute.fleet_planning import plan
     from fiveroute.formats import read_instance
     from fiveroute.limits import Limits
 

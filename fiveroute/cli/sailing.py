@@ -9,7 +9,7 @@ import click
 
 from fiveroute.cli.notes import note
 from fiveroute.fleet_plan import FleetPlan
-from fiveroute.fleet_plan import sail as sail_in_its_ocean
+from fiveroute.fleet_planning import sail as sail_in_its_ocean
 from fiveroute.instance import Instance
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.paths.voyage import Voyage

@@ -68,7 +68,7 @@ def command(
     from fiveroute.cli.files import require_outputs
     from fiveroute.cli.running import run
     from fiveroute.cli.sailing import answer_plan
-    from fiveroute.fleet_plan import solve
+    from fiveroute.fleet_planning import solve
     from fiveroute.formats import read_instance
     from fiveroute.limits import Limits
 

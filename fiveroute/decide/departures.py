@@ -13,7 +13,7 @@ from pathlib import Path
 
 from fiveroute.decide.sweep import Row, Sweep, figures, vary
 from fiveroute.errors import InputError
-from fiveroute.fleet_plan import plan
+from fiveroute.fleet_planning import plan
 from fiveroute.instance import Instance
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.mission import Bounding

@@ -66,7 +66,7 @@ def sweep_fleet_sizes(
             seed=seed,
         )
         estimates.append(planned.fleet_estimate)
-        return figures(FleetPlan.of(voyage, planned))
+        return figures(FleetPlan.of(voyage, planned.problem, planned.result, planned))
 
     clock = (limits or Limits()).start()
     name = voyage.mission.name

@@ -28,7 +28,7 @@ import numpy as np
 
 from fiveroute.decide.sweep import Row, Sweep, figures, vary
 from fiveroute.errors import InputError
-from fiveroute.fleet_plan import plan, sail
+from fiveroute.fleet_planning import plan, sail
 from fiveroute.instance import Instance
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.mission import Bounding

@@ -17,7 +17,7 @@ import fiveroute
 from fiveroute.errors import InputError
 from fiveroute.experiments.gap_row import GapRow, GapSettings, measure
 from fiveroute.experiments.kept_rows import KeptRows, key_of
-from fiveroute.fleet_plan import sail
+from fiveroute.fleet_planning import sail
 from fiveroute.formats import currents_file, instance_hash, read_instance
 from fiveroute.instance import Instance
 from fiveroute.kernels import source_digest

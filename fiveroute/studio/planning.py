@@ -12,7 +12,7 @@ from pydantic import ConfigDict, Field
 from pydantic.dataclasses import dataclass as validated
 
 from fiveroute.errors import FiverouteError
-from fiveroute.fleet_plan import plan
+from fiveroute.fleet_planning import plan
 from fiveroute.formats.plan_file import PlanFile
 from fiveroute.instance import Instance
 from fiveroute.limits import Clock, Limits, Progress
@@ -39,7 +39,7 @@ class Wish:
     straight_lines
         Whether to ignore the ocean.
     bound
-        Where the upper bound comes from, see `fiveroute.fleet_plan.plan`.
+        Where the upper bound comes from, see `fiveroute.fleet_planning.plan`.
     seed
         Seed of the random numbers.
     """

@@ -14,7 +14,7 @@ from shapely import Point as Spot
 
 from fiveroute.check_paths import sailing_time
 from fiveroute.errors import InputError
-from fiveroute.fleet_plan import plan
+from fiveroute.fleet_planning import plan
 from fiveroute.instance import (
     Circle,
     Currents,

@@ -1,7 +1,7 @@
 from dataclasses import replace
 from html.parser import HTMLParser
 
-from fiveroute.fleet_plan import plan as plan_fleet
+from fiveroute.fleet_planning import plan as plan_fleet
 from fiveroute.formats.plan_file import PlanFile
 from fiveroute.instance import Fleet, Instance, Ocean, Point
 from fiveroute.view.notebook import plan_html
