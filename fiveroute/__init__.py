@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from fiveroute.errors import FiverouteError, InputError
     from fiveroute.fleet_plan import FleetPlan
     from fiveroute.fleet_planning import plan, solve
-    from fiveroute.fleet_runs import simulate
+    from fiveroute.fleet_runs import FleetRuns
+    from fiveroute.fleet_sailing import simulate
     from fiveroute.instance import Instance
     from fiveroute.limits import Limits, Progress
     from fiveroute.reading import read, read_plan
@@ -29,6 +30,7 @@ __version__ = "0.1.0"
 __all__ = [
     "FiverouteError",
     "FleetPlan",
+    "FleetRuns",
     "InputError",
     "Instance",
     "Limits",
@@ -44,6 +46,7 @@ __all__ = [
 _HOMES = {
     "FiverouteError": "fiveroute.errors",
     "FleetPlan": "fiveroute.fleet_plan",
+    "FleetRuns": "fiveroute.fleet_runs",
     "InputError": "fiveroute.errors",
     "Instance": "fiveroute.instance",
     "Limits": "fiveroute.limits",
@@ -52,7 +55,7 @@ _HOMES = {
     "plan": "fiveroute.fleet_planning",
     "read": "fiveroute.reading",
     "read_plan": "fiveroute.reading",
-    "simulate": "fiveroute.fleet_runs",
+    "simulate": "fiveroute.fleet_sailing",
     "solve": "fiveroute.fleet_planning",
 }
 

@@ -200,22 +200,10 @@ class FleetPlan:
         folder
             Folder that the name of the instance's file of currents is relative to.
         """
-        from fiveroute.view.looks import require_look, write_look
+        from fiveroute.view.looks import show_look
         from fiveroute.view.scene import scene_of
 
-        scenes = [scene_of(self.filed(), folder)]
-        if path is not None:
-            target = Path(path)
-            require_look(target)
-            write_look(scenes, target, force=force)
-            return target
-        import tempfile
-        import webbrowser
-
-        page = Path(tempfile.mkdtemp(prefix="fiveroute-")) / "plan.html"
-        write_look(scenes, page)
-        webbrowser.open(page.as_uri())
-        return page
+        return show_look([scene_of(self.filed(), folder)], path, force=force)
 
     def export(
         self,

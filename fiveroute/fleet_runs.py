@@ -1,41 +1,30 @@
-"""Runs of a fleet at sea, for people who call fiveroute from Python: tiers 4 and 5.
+"""Runs of a fleet at sea, for people who call fiveroute from Python: what tiers 4 and 5 came to.
 
-    import fiveroute as fr
-
-    sea = fr.read("sea.json")
-    runs = fr.simulate(sea, fr.plan(sea), runs=50)
-    print(runs.completions.mean(), runs.late_returns)
-
-`prepare` brings a mission as far as the pier: legs planned, the law of what they really take or the
-vehicle that sails them, and the routes to set out with. `simulate` sails it again and again.
+They know the plan that the fleet set out with, what it collected in every ocean, and who came home
+late; they can be saved as a table, a log of events or CF trajectories, and played on a page.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fiveroute.errors import InputError
 from fiveroute.fleet_plan import FleetPlan
-from fiveroute.fleet_planning import sail
-from fiveroute.instance import Instance
-from fiveroute.limits import Limits, ProgressCallback
-from fiveroute.paths.voyage import Voyage
-from fiveroute.reading import reachable_routes
 from fiveroute.routes import Plan
+from fiveroute.sea.run_result import RunResult, SimulationResult
 
 if TYPE_CHECKING:
-    from fiveroute.formats.plan_file import PlanFile
-    from fiveroute.sea.run_result import SimulationResult
     from fiveroute.sea.theatre import Theatre
+    from fiveroute.view.event_log import RunLog
 
-__all__ = ["Actuation", "Pier", "prepare", "simulate"]
+__all__ = ["FleetRuns", "Pier"]
 
-Actuation = Literal["abstraction", "vehicle"]
-"""What a leg takes: equation (12), or what a vehicle needs for it in a true current."""
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,184 +33,200 @@ class Pier:
 
     Parameters
     ----------
-    voyage
-        The mission and its planned legs.
-    theatre
-        What the simulation knows of it.
-    routes
-        The routes that the fleet sets out with.
-    """
-
-    voyage: Voyage
-    theatre: Theatre
-    routes: Plan
-
-
-def prepare(
-    instance: Instance,
-    filed: PlanFile | None = None,
-    *,
-    planner: str = "five-tier",
-    fleet_size: int | None = None,
-    reserve: float = 1.645,
-    actuation: Actuation = "abstraction",
-    straight_lines: bool = False,
-    limits: Limits | None = None,
-    seed: int = 0,
-    progress: ProgressCallback | None = None,
-    folder: Path | None = None,
-) -> Pier:
-    """Plan the legs, and the routes where no plan is given: the one that does best in rehearsals.
-
-    Parameters
-    ----------
-    instance
-        The mission.
-    filed
-        A plan for it.
-    planner
-        Who will steer, see `fiveroute.sea.simulation.PLANNERS`.
-    fleet_size
-        Number of AUVs; None takes that of the plan, of the instance, or else estimates it.
-    reserve
-        Standard deviations of the remaining time that AUVs keep in hand.
-    actuation
-        What a leg takes.
-    straight_lines
-        Whether to ignore the ocean.
-    limits
-        When to stop.
-    seed
-        Seed of the random numbers.
-    progress
-        Told what is at work.
-    folder
-        Folder that the name of the instance's file of currents is relative to.
-    """
-    from fiveroute.sea.departure import departure_plan
-    from fiveroute.sea.sailed_luck import VehicleModel
-    from fiveroute.sea.theatre import Theatre
-    from fiveroute.tiers.preplanning import fleet_size_of
-
-    clock = (limits or Limits()).start()
-    voyage = sail(
-        instance,
-        folder=folder,
-        straight_lines=straight_lines,
-        limits=clock.limits,
-        seed=seed,
-        progress=progress,
-    )
-    routes = None if filed is None else reachable_routes(filed, voyage)
-    if routes is not None:
-        if fleet_size not in (None, len(routes.routes)):
-            raise InputError(
-                f"the plan has {len(routes.routes)} AUVs; leave the size out, or plan anew",
-                field="fleet_size",
-                value=fleet_size,
-            )
-        size = len(routes.routes)
-    else:
-        rng = np.random.default_rng(seed)
-        size = fleet_size or fleet_size_of(voyage.instance, voyage.travel, rng=rng)
-    theatre = Theatre.of(
-        voyage.instance, size, travel=voyage.travel, out_of_reach=voyage.out_of_reach
-    )
-    if actuation == "vehicle":
-        model = VehicleModel.of(voyage, folder or Path())
-        theatre = theatre.sailed_by(model, seed, limits=clock.rest())
-    if routes is None:
-        # Who plans anew at once, and slowly, need not rehearse what it sets out with itself.
-        rehearsing = "of-one-mind" if planner == "re-optimising" else planner
-        routes = departure_plan(
-            theatre.by_law, rehearsing, reserve=reserve, seed=seed, limits=clock.rest()
-        )
-    return Pier(voyage, theatre, routes)
-
-
-def simulate(
-    instance: Instance,
-    plan: FleetPlan | None = None,
-    *,
-    planner: str = "five-tier",
-    runs: int = 50,
-    fleet_size: int | None = None,
-    reserve: float = 1.645,
-    loss: float | None = None,
-    failures: float = 0.0,
-    actuation: Actuation = "abstraction",
-    gap: bool = False,
-    straight_lines: bool = False,
-    workers: int = 1,
-    limits: Limits | float | None = None,
-    seed: int = 0,
-    progress: ProgressCallback | None = None,
-    folder: Path | None = None,
-) -> SimulationResult:
-    """Carry a plan out in many oceans, the same ones for every planner.
-
-    Parameters
-    ----------
-    instance
-        The mission.
     plan
-        The plan to set out with; None plans for the sea that is to be expected.
-    planner
-        Who steers, see `fiveroute.sea.simulation.PLANNERS`.
-    runs
-        Oceans to sail in.
-    fleet_size
-        Number of AUVs; None takes that of the plan, of the instance, or else estimates it.
-    reserve
-        Standard deviations of the remaining time that AUVs keep in hand; 0 is the paper.
-    loss, failures
-        Probabilities that a message is lost, and that an AUV fails in mid-mission.
-    actuation
-        What a leg takes.
-    gap
-        Whether to compare every run with a clairvoyant plan.
-    straight_lines
-        Whether to ignore the ocean.
-    workers
-        Processes on this machine.
-    limits
-        Seconds, or limits.
-    seed
-        Seed of the random numbers; the same on any number of workers.
-    progress
-        Told how many runs are done.
-    folder
-        Folder that the name of the instance's file of currents is relative to.
+        The routes that it sets out with, on its planned legs.
+    theatre
+        What the simulation knows of the mission.
     """
-    from fiveroute.sea.campaign import Campaign, sail_campaign
 
-    if runs < 1:
-        raise InputError("must be at least 1", field="runs", value=runs)
-    clock = Limits.of(limits).start()
-    pier = prepare(
-        instance,
-        None if plan is None else plan.filed(),
-        planner=planner,
-        fleet_size=fleet_size,
-        reserve=reserve,
-        actuation=actuation,
-        straight_lines=straight_lines,
-        limits=clock.limits,
-        seed=seed,
-        progress=progress,
-        folder=folder,
-    )
-    how = {
-        "planner": planner,
-        "reserve": reserve,
-        "loss": loss,
-        "failures": failures,
-        "gap": gap,
-        "seed": seed,
-    }
-    return sail_campaign(
-        Campaign(pier.theatre, pier.routes, runs, how),
-        workers=workers,
-        limits=clock.rest(),
-        progress=progress,
-    )
+    plan: FleetPlan
+    theatre: Theatre
+
+    @property
+    def routes(self) -> Plan:
+        """The routes as the simulation knows them."""
+        assert self.plan.result.plan is not None
+        return self.plan.result.plan
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class FleetRuns:
+    """What became of a fleet in many oceans.
+
+    Parameters
+    ----------
+    pier
+        The fleet as it left.
+    result
+        What the simulation answered.
+    seed
+        Seed of the oceans.
+    """
+
+    pier: Pier
+    result: SimulationResult
+    seed: int
+
+    @property
+    def plan(self) -> FleetPlan:
+        """The plan that the fleet set out with."""
+        return self.pier.plan
+
+    @property
+    def runs(self) -> tuple[RunResult, ...]:
+        """What became of the fleet in every ocean."""
+        return self.result.runs
+
+    @property
+    def fleet_size(self) -> int:
+        """Number of AUVs."""
+        return self.result.fleet_size
+
+    @property
+    def completions(self) -> Floats:
+        """Completion rate theta, (31), of every run, shape (runs,)."""
+        return self.result.completions
+
+    @property
+    def late_returns(self) -> int:
+        """Number of AUVs that came home late, over all runs."""
+        return self.result.late_returns
+
+    @property
+    def online_gap(self) -> float | None:
+        """Mean of (clairvoyant - completion) / clairvoyant; None where it was not asked for."""
+        return self.result.online_gap
+
+    def tracks(self, run: RunResult) -> tuple[Floats, ...]:
+        """Where every AUV was in a run: seconds, x and y in metres, each of shape (any, 3)."""
+        from fiveroute.sea.tracks import tracks_of
+
+        return tracks_of(self.pier.theatre, self.plan.voyage.legs, run, self.seed)
+
+    def save(self, path: str | PathLike[str], *, force: bool = False) -> None:
+        """Write a table, a row a run, whole or not at all.
+
+        Parameters
+        ----------
+        path
+            The file, .csv, .md or .parquet.
+        force
+            Overwrite an existing file.
+        """
+        from fiveroute.experiments.run_table import write_table
+
+        write_table(self.result, Path(path), force)
+
+    def save_events(self, path: str | PathLike[str], *, force: bool = False) -> None:
+        """Write what happened, a JSON document a line, whole or not at all.
+
+        Parameters
+        ----------
+        path
+            The file.
+        force
+            Overwrite an existing file.
+        """
+        from fiveroute.formats.files import write_text_atomically
+
+        write_text_atomically(Path(path), self._log(), force)
+
+    def save_tracks(self, path: str | PathLike[str], *, force: bool = False) -> None:
+        """Write the track of every AUV in every run as CF trajectories, whole or not at all.
+
+        Parameters
+        ----------
+        path
+            The file, .nc.
+        force
+            Overwrite an existing file.
+        """
+        from fiveroute.experiments.track_file import require_tracks, write_tracks
+
+        file = Path(path)
+        require_tracks(file, force)
+        where = [(run.run, self.tracks(run)) for run in self.runs]
+        write_tracks(self.plan.voyage.instance, where, file, force)
+
+    def view(
+        self,
+        path: str | PathLike[str] | None = None,
+        *,
+        run: int | None = None,
+        force: bool = False,
+        folder: Path | None = None,
+    ) -> Path:
+        """Write a page that plays the runs, a picture, or a film, and return its file.
+
+        Parameters
+        ----------
+        path
+            The file, .html, .png, .svg, .pdf or .gif; None opens a page in the browser.
+        run
+            Number of the run that a picture or film shows; a page has them all.
+        force
+            Overwrite an existing file.
+        folder
+            Folder that the name of the instance's file of currents is relative to.
+        """
+        from fiveroute.view.looks import show_look
+        from fiveroute.view.scene import scene_of
+
+        scene = scene_of(self.plan.filed(), folder, runs=self._played())
+        return show_look([scene], path, run=run, force=force)
+
+    def _played(self) -> tuple[RunLog, ...]:
+        """The runs as a page plays them."""
+        from fiveroute.view.event_log import run_logs
+
+        logs = {log.run: log for log in run_logs(self._log(), self.plan.filed())}
+        tracks = {
+            run.run: tuple(track[:, [1, 2, 0]] for track in self.tracks(run)) for run in self.runs
+        }
+        return tuple(replace(log, tracks=tracks[number]) for number, log in logs.items())
+
+    def _log(self) -> str:
+        from fiveroute.experiments.run_table import event_lines
+
+        return event_lines(self.plan.voyage.instance, self.result)
+
+    def _repr_html_(self) -> str:
+        """The plan's map under what became of it, for notebooks."""
+        from fiveroute.view.notebook import runs_html
+
+        return runs_html(self.plan.filed(), str(self).splitlines())
+
+    def __repr__(self) -> str:
+        """Its first line: the runs alone have thousands of numbers."""
+        return f"<{type(self).__name__} {self._headline()}>"
+
+    def __str__(self) -> str:
+        """The figures that matter, one a line."""
+        return "\n".join([self._headline(), *(f"{name:<16}{text}" for name, text in self._told())])
+
+    def _headline(self) -> str:
+        name, count, result = self.plan.instance.name, len(self.runs), self.result
+        return f"{name}: {count} runs of {result.fleet_size} AUVs, {result.planner}"
+
+    def _told(self) -> list[tuple[str, str]]:
+        result, rates = self.result, 100.0 * self.completions
+        sent, delivered = result.messages
+        spread = rates.std(ddof=1) if len(rates) > 1 else 0.0
+        told = [
+            ("collected", f"{rates.mean():.1f} % of all data (std {spread:.1f})"),
+            ("range", f"{rates.min():.1f} to {rates.max():.1f} %"),
+            ("planned", f"{100.0 * result.planned_completion:.1f} %"),
+            ("late returns", f"{result.late_returns} of {len(rates) * result.fleet_size}"),
+            ("double visits", str(result.double_visits)),
+            ("messages", f"{sent} sent, {delivered} received"),
+        ]
+        if result.min_clearance is not None:
+            told += [
+                ("clearance", f"{result.min_clearance:.1f} m at the least"),
+                ("collisions", str(result.collisions)),
+            ]
+        if result.lost:
+            told.append(("lost", f"{result.lost} AUVs, by the current or obstacles"))
+        if result.online_gap is not None:
+            told.append(("online gap", f"{100.0 * result.online_gap:.1f} % to the clairvoyant"))
+        return told

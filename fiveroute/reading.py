@@ -13,13 +13,13 @@ from fiveroute.fleet_planning import sail
 from fiveroute.instance import Instance
 from fiveroute.limits import Limits
 from fiveroute.paths.voyage import Voyage
-from fiveroute.result import Result
+from fiveroute.result import Result, Status
 from fiveroute.routes import Plan
 
 if TYPE_CHECKING:
     from fiveroute.formats.plan_file import PlanFile
 
-__all__ = ["reachable_routes", "read", "read_plan"]
+__all__ = ["on_voyage", "read", "read_plan"]
 
 
 def read(path: str | PathLike[str], format_name: str | None = None) -> Instance:
@@ -71,20 +71,30 @@ def read_plan(path: str | PathLike[str], *, limits: Limits | float | None = None
         raise InputError(
             "is no node that an AUV can reach", file=file, field="routes", value=strange[0]
         )
-    routes = reachable_routes(filed, voyage)
-    problem = voyage.instance.problem(len(filed.routes), voyage.travel)
-    if violations := check(problem, routes):
+    plan = on_voyage(filed, voyage)
+    assert plan.result.plan is not None
+    if violations := check(plan.problem, plan.result.plan):
         raise InputError(f"{violations[0]}; plan it anew", file=file, field="routes")
-    result = Result(
-        filed.method, filed.status, routes, filed.objective, filed.bound, 0.0, filed.seed
-    )
-    return FleetPlan.of(voyage, problem, result)
+    return plan
 
 
-def reachable_routes(filed: PlanFile, voyage: Voyage) -> Plan:
-    """The routes of a plan file over the nodes that can be reached."""
+def on_voyage(filed: PlanFile, voyage: Voyage) -> FleetPlan:
+    """A plan from a file over the nodes that can be reached, on legs that are planned anew.
+
+    Parameters
+    ----------
+    filed
+        The plan. Its proof holds if it was made for the same kind of legs, along paths or straight.
+    voyage
+        The legs.
+    """
     vertex = {node.id: k for k, node in enumerate(voyage.instance.nodes, start=1)}
-    return Plan.of([vertex[name] for name in route if name in vertex] for route in filed.routes)
+    routes = Plan.of([vertex[name] for name in route if name in vertex] for route in filed.routes)
+    problem = voyage.instance.problem(len(filed.routes), voyage.travel)
+    is_same = (filed.paths is None) == (voyage.legs is None)
+    status, bound = (filed.status, filed.bound) if is_same else (Status.FEASIBLE, None)
+    result = Result(filed.method, status, routes, filed.objective, bound, 0.0, filed.seed)
+    return FleetPlan.of(voyage, problem, result)
 
 
 def _with_full_name(instance: Instance, source: Path) -> Instance:

@@ -94,6 +94,7 @@ FORBIDDEN = [  # (who, whom, why)
             "fiveroute.fleet_plan",
             "fiveroute.fleet_planning",
             "fiveroute.fleet_runs",
+            "fiveroute.fleet_sailing",
             "fiveroute.peers",
             "fiveroute.plots",
             "fiveroute.reading",

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import xarray as xr
 
 import fiveroute as fr
 from fiveroute.formats import write_instance
@@ -145,3 +146,60 @@ def test_runs_at_sea_are_repeatable(sea: fr.Instance) -> None:
     assert one.completions.tolist() == two.completions.tolist()
     assert one.fleet_size == 2
     assert fr.simulate(uncertain, runs=2).runs
+
+
+@pytest.fixture(scope="module")
+def runs(sea: fr.Instance) -> fr.FleetRuns:
+    uncertain = replace(sea, uncertainty=replace(sea.uncertainty, drift=0.2))
+    return fr.simulate(uncertain, fr.plan(uncertain), runs=3, channel="fsk", seed=3)
+
+
+def test_runs_tell_what_became_of_the_fleet(runs: fr.FleetRuns) -> None:
+    lines = str(runs).splitlines()
+    assert lines[0] == f"{runs.plan.instance.name}: 3 runs of 2 AUVs, five-tier"
+    assert f"{100 * runs.completions.mean():.1f} % of all data" in lines[1]
+    assert repr(runs) == f"<FleetRuns {lines[0]}>"
+    page = runs._repr_html_()
+    assert lines[1] in page
+    assert "<svg" in page
+    assert runs.plan.gap is not None
+
+
+def test_runs_go_into_files(runs: fr.FleetRuns, tmp_path: Path) -> None:
+    """The table, the log and the tracks agree with one another."""
+    runs.save(tmp_path / "runs.csv")
+    rows = (tmp_path / "runs.csv").read_text().splitlines()
+    assert len(rows) == 1 + 3
+    runs.save_events(tmp_path / "events.jsonl")
+    events = [json.loads(line) for line in (tmp_path / "events.jsonl").read_text().splitlines()]
+    ids = {node.id for node in runs.plan.instance.nodes}
+    assert {event["node"] for event in events if event["kind"] == "collect"} <= ids
+    runs.save_tracks(tmp_path / "tracks.nc")
+    with xr.open_dataset(tmp_path / "tracks.nc") as tracks:
+        assert tracks.sizes["trajectory"] == 3 * 2
+    for run in runs.runs:
+        for track, arrival in zip(runs.tracks(run), run.arrivals, strict=True):
+            assert track[-1, 0] == pytest.approx(arrival)
+    with pytest.raises(fr.InputError, match="force"):
+        runs.save(tmp_path / "runs.csv")
+
+
+def test_runs_are_played_on_a_page(runs: fr.FleetRuns, tmp_path: Path) -> None:
+    assert runs.view(tmp_path / "runs.html").read_text().startswith("<!")
+    assert runs.view(tmp_path / "run.png", run=1).stat().st_size > 1000
+
+
+def test_what_no_fleet_can_do_is_refused(sea: fr.Instance) -> None:
+    with pytest.raises(fr.InputError, match="channel: 'shouting': is none of unlimited, fsk"):
+        fr.simulate(sea, runs=1, channel="shouting")
+    with pytest.raises(fr.InputError, match="the plan has 2 AUVs"):
+        fr.simulate(sea, fr.plan(sea), runs=1, fleet_size=3)
+
+
+def test_a_proof_for_straight_lines_does_not_hold_in_a_current() -> None:
+    instance = generate("paper", nodes=6, seed=5)
+    instance = replace(instance, fleet=replace(instance.fleet, size=2, endurance=12_000.0))
+    straight = fr.plan(instance, straight_lines=True)
+    assert straight.bound is not None
+    assert fr.simulate(instance, straight, runs=1, straight_lines=True).plan.bound is not None
+    assert fr.simulate(instance, straight, runs=1).plan.bound is None

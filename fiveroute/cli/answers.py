@@ -17,10 +17,9 @@ from fiveroute.words import ENDLESS, clock
 
 if TYPE_CHECKING:
     from fiveroute.fleet_plan import FleetPlan
+    from fiveroute.fleet_runs import FleetRuns
     from fiveroute.formats.plan_file import PlanFile
     from fiveroute.mission import MissionPlan
-    from fiveroute.paths.voyage import Voyage
-    from fiveroute.sea.run_result import SimulationResult
     from fiveroute.tiers.pathing import PlannedPath
     from fiveroute.verdict import Verdict
 
@@ -35,7 +34,6 @@ __all__ = [
     "print_json",
     "print_path",
     "print_routes",
-    "print_simulation",
     "print_table",
     "print_verdict",
     "simulation_answer",
@@ -161,10 +159,11 @@ def _radius(curvature: float) -> str:
     return f"radius {1.0 / curvature:.0f} m" if curvature > 0.0 else "none"
 
 
-def simulation_answer(voyage: Voyage, result: SimulationResult, seed: int) -> dict[str, Any]:
+def simulation_answer(runs: FleetRuns) -> dict[str, Any]:
     """The keys of `simulate`; completion is that of the whole mission."""
     import numpy as np
 
+    voyage, result = runs.plan.voyage, runs.result
     rates = result.completions
     least, low, middle, high, most = np.percentile(rates, (0, 25, 50, 75, 100)).tolist()
     sent, delivered = result.messages
@@ -193,35 +192,8 @@ def simulation_answer(voyage: Voyage, result: SimulationResult, seed: int) -> di
         "unreachable": list(voyage.unreachable),
         "straight_lines": voyage.legs is None,
         "seconds": result.seconds,
-        "seed": seed,
+        "seed": runs.seed,
     }
-
-
-def print_simulation(answer: Mapping[str, Any]) -> None:
-    """Print what became of a fleet for people."""
-    rates = answer["completion"]
-    sent, delivered = answer["messages"]["sent"], answer["messages"]["delivered"]
-    fleet = answer["fleet_size"]
-    click.echo(f"{answer['instance']}: {answer['runs']} runs of {fleet} AUVs, {answer['planner']}")
-    figures = [
-        ("collected", f"{100 * rates['mean']:.1f} % of all data (std {100 * rates['std']:.1f})"),
-        ("range", f"{100 * rates['min']:.1f} to {100 * rates['max']:.1f} %"),
-        ("planned", f"{100 * answer['planned_completion']:.1f} %"),
-        ("late returns", f"{answer['late_returns']} of {answer['runs'] * fleet}"),
-        ("double visits", str(answer["double_visits"])),
-        ("messages", f"{sent} sent, {delivered} received"),
-    ]
-    if answer["min_clearance"] is not None:
-        figures += [
-            ("clearance", f"{answer['min_clearance']:.1f} m at the least"),
-            ("collisions", str(answer["collisions"])),
-        ]
-    if answer["lost"]:
-        figures.append(("lost", f"{answer['lost']} AUVs, by the current or obstacles"))
-    if answer["online_gap"] is not None:
-        figures.append(("online gap", f"{100 * answer['online_gap']:.1f} % to the clairvoyant"))
-    for name, text in figures:
-        click.echo(f"{name:<16}{text}")
 
 
 def verify_answer(instance: Instance, filed: PlanFile, verdict: Verdict) -> dict[str, Any]:

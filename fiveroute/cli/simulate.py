@@ -14,13 +14,9 @@ from fiveroute.cli.notes import note
 
 if TYPE_CHECKING:
     from fiveroute.experiments.registry import Registry
+    from fiveroute.fleet_runs import FleetRuns
     from fiveroute.instance import Instance
     from fiveroute.limits import Limits, ProgressCallback
-    from fiveroute.paths.voyage import Voyage
-    from fiveroute.sea.run_result import SimulationResult
-    from fiveroute.sea.theatre import Theatre
-
-    _Sailed = tuple[Voyage, Theatre, SimulationResult]
 
 __all__ = ["command"]
 
@@ -108,7 +104,8 @@ def command(
     from fiveroute.cli import answers
     from fiveroute.cli.running import run
     from fiveroute.cli.sailing import tell_of
-    from fiveroute.fleet_runs import prepare
+    from fiveroute.fleet_runs import FleetRuns
+    from fiveroute.fleet_sailing import prepare
     from fiveroute.formats import read_instance
     from fiveroute.formats.plan_file import read_plan
     from fiveroute.heuristics.shortest_routes import is_proved_infeasible
@@ -125,7 +122,7 @@ def command(
     anew = force or time_limit < math.inf  # a plan under a time limit cannot be made again
     registry = output and _registered(output, config, mission, instance, plan, anew)
 
-    def work(limits: Limits, progress: ProgressCallback | None) -> _Sailed:
+    def work(limits: Limits, progress: ProgressCallback | None) -> FleetRuns:
         clock = limits.start()
         pier = prepare(
             mission,
@@ -135,7 +132,7 @@ def command(
             progress=progress,
             folder=instance.parent,
         )
-        tell_of(pier.voyage)
+        tell_of(pier.plan.voyage)
         result = sail_campaign(
             Campaign(pier.theatre, pier.routes, choices["runs"], _steering(config)),
             workers=workers,
@@ -144,21 +141,20 @@ def command(
             limits=clock.rest(),
             progress=progress,
         )
-        return pier.voyage, pier.theatre, result
+        return FleetRuns(pier, result, choices["seed"])
 
     outcome = run(work, Limits(time_limit))
-    voyage, theatre, result = outcome.value
-    files.write(*outcome.value, choices["seed"])
+    runs = outcome.value
+    files.write(runs)
     if registry:
         registry.end()
-    if choices["gap"] and result.online_gap is None:
+    if choices["gap"] and runs.online_gap is None:
         note("no gap is given: a vehicle would have to sail all legs")
-    answer = answers.simulation_answer(voyage, result, choices["seed"])
     if as_json:
-        answers.print_json(answer)
+        answers.print_json(answers.simulation_answer(runs))
     else:
-        answers.print_simulation(answer)
-    no_plan_exists = is_proved_infeasible(theatre.problem)
+        click.echo(str(runs))
+    no_plan_exists = is_proved_infeasible(runs.pier.theatre.problem)
     if no_plan_exists:
         note("the destination is out of reach in time; AUVs come home late")
     ctx.exit(130 if outcome.interrupted else int(no_plan_exists))
@@ -188,20 +184,13 @@ class _Files:
         if self.output is not None:
             require_table(self.output)
 
-    def write(self, voyage: Voyage, theatre: Theatre, result: SimulationResult, seed: int) -> None:
-        from fiveroute.experiments.run_table import event_lines, write_table
-        from fiveroute.experiments.track_file import write_tracks
-        from fiveroute.formats.files import write_text_atomically
-        from fiveroute.sea.tracks import tracks_of
-
-        instance = voyage.instance
+    def write(self, runs: FleetRuns) -> None:
         if self.events is not None:
-            write_text_atomically(self.events, event_lines(instance, result), self.force)
+            runs.save_events(self.events, force=self.force)
         if self.tracks is not None:
-            where = [(run.run, tracks_of(theatre, voyage.legs, run, seed)) for run in result.runs]
-            write_tracks(instance, where, self.tracks, self.force)
+            runs.save_tracks(self.tracks, force=self.force)
         if self.output is not None:
-            write_table(result, self.output, self.force)
+            runs.save(self.output, force=self.force)
 
 
 def _registered(

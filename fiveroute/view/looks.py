@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import tempfile
+import webbrowser
 from collections.abc import Sequence
+from os import PathLike
 from pathlib import Path
 
 from fiveroute.errors import InputError
 from fiveroute.formats.files import require_writable, write_text_atomically
 from fiveroute.view.scene import Scene, scene_of
 
-__all__ = ["load_scenes", "require_look", "write_look"]
+__all__ = ["load_scenes", "require_look", "show_look", "write_look"]
 
 _PICTURES = (".pdf", ".png", ".svg")
 _LOOKS = (".gif", ".html", *_PICTURES)
@@ -103,3 +106,28 @@ def write_look(
     from fiveroute.plots.files import write_film, write_picture
 
     (write_film if suffix == ".gif" else write_picture)(scenes, path, run=run)
+
+
+def show_look(
+    scenes: Sequence[Scene],
+    path: str | PathLike[str] | None,
+    *,
+    run: int | None = None,
+    force: bool = False,
+) -> Path:
+    """Write a look and return its file; without one, a page of its own is opened in the browser.
+
+    Parameters
+    ----------
+    scenes, run, force
+        See `write_look`.
+    path
+        The file, or None.
+    """
+    if path is not None:
+        write_look(scenes, Path(path), run=run, force=force)
+        return Path(path)
+    page = Path(tempfile.mkdtemp(prefix="fiveroute-")) / "plan.html"
+    write_look(scenes, page, run=run)
+    webbrowser.open(page.as_uri())
+    return page

@@ -18,7 +18,7 @@ from fiveroute.paths.thinning import thinned
 from fiveroute.result import optimality_gap
 from fiveroute.words import clock, counted
 
-__all__ = ["mission_html", "no_plan_html", "plan_html"]
+__all__ = ["mission_html", "no_plan_html", "plan_html", "runs_html"]
 
 Floats = NDArray[np.float64]
 
@@ -51,6 +51,23 @@ def plan_html(plan: PlanFile) -> str:
 def no_plan_html(name: str, status: str) -> str:
     """What is to be said of a mission without a plan."""
     return f"<div><b>{escape(name)}</b>: {escape(status)}</div>"
+
+
+def runs_html(plan: PlanFile, lines: Sequence[str]) -> str:
+    """What became of a plan, in lines, and its map.
+
+    Parameters
+    ----------
+    plan
+        The plan that the fleet set out with.
+    lines
+        What became of it, the first a title.
+    """
+    title, *told = (escape(line) for line in lines)
+    return (
+        f"<div><b>{title}</b><pre>{chr(10).join(told)}</pre>"
+        f"{_map(plan.instance, _ways(plan), plan.routes)}</div>"
+    )
 
 
 def mission_html(mission: Instance) -> str:
