@@ -209,13 +209,13 @@ def test_an_interrupted_run_has_a_plan() -> None:
 
 @pytest.mark.parametrize("search", ["paper", "fleet"])
 def test_a_time_limit_is_kept(search: Search) -> None:
-    """Far from the limit, so that a busy machine does not matter."""
+    """Far from the limit, and by processor time, so that a busy machine does not matter."""
     plan_mission(scenario("uniform", 10, 1, 2), search=search, bound="quick")  # compiles
-    begin = time.perf_counter()
+    begin = time.process_time()
     planned = plan_mission(
         scenario("uniform", 100, 10, 3), search=search, bound="quick", limits=Limits(time=0.5)
     )
-    assert time.perf_counter() - begin < 5.0
+    assert time.process_time() - begin < 5.0
     assert collected(planned) > 0.0
 
 
