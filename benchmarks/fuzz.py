@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import argparse
 import faulthandler
+import io
 import json
 import mmap
 import os
@@ -30,6 +31,7 @@ import tempfile
 import time
 import traceback
 import warnings
+import zipfile
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache, partial
@@ -325,6 +327,43 @@ KML = (
     + " ".join(f"{lon},{lat}" for lon, lat in RING)
     + "</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark></Document></kml>\n"
 ).encode()
+
+
+def _kmz(content: bytes = KML, how: int = zipfile.ZIP_DEFLATED, **document: Any) -> bytes:
+    """A document in an archive, beside a picture; what its entry says may be other things."""
+    into, member = io.BytesIO(), zipfile.ZipInfo("doc.kml")
+    with zipfile.ZipFile(into, "w", how) as archive:
+        archive.writestr("files/icon.png", b"\x89PNG")
+        member.compress_type = how
+        for name, value in document.items():
+            setattr(member, name, value)
+        archive.writestr(member, content)
+    return into.getvalue()
+
+
+def _spoilt_kmz(rng: random.Random) -> bytes:
+    """An archive of a damaged document, or one whose members or bytes are damaged."""
+    how = rng.choice((zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED))
+    if rng.random() < 0.3:
+        return _kmz(damaged(KML, rng), how)
+    told: dict[str, Any] = {}
+    if rng.random() < 0.3:
+        told["filename"] = rng.choice(("a.KML", "../doc.kml", "C:x.kml", "a/b.kml", "\u2028.kml"))
+    if rng.random() < 0.2:
+        told["external_attr"] = rng.getrandbits(32)
+    whole = _kmz(KML, how, **told)
+    if rng.random() < 0.5:
+        return rng.choice((_bits, _piece, _cut, _word))(whole, rng)
+    spoilt = bytearray(whole)  # a field of an entry, of a header or of the end written over
+    at = rng.choice([m.start() for m in re.finditer(rb"PK(\x01\x02|\x03\x04|\x05\x06)", whole)])
+    for _ in range(rng.choice((1, 1, 2, 5))):
+        field, size = at + 2 * rng.randint(2, 22), rng.choice((1, 2, 4))
+        spoilt[field : field + size] = rng.choice((0, 1, rng.getrandbits(32), -1)).to_bytes(
+            5, "little", signed=True
+        )[:size]
+    return bytes(spoilt)
+
+
 GPX = (
     '<?xml version="1.0"?>\n<gpx version="1.1" xmlns="http://www.topografix.com/GPX/1/1">'
     + "".join(
@@ -519,6 +558,12 @@ _READERS: dict[str, Callable[[], Reader]] = {
     "csv": lambda: Reader(".csv", CSV, partial(_read_chart, "csv")),
     "geojson": lambda: Reader(".geojson", (CHART,), partial(_read_chart, "geojson")),
     "kml": lambda: Reader(".kml", (KML,), partial(_read_chart, "kml")),
+    "kmz": lambda: Reader(
+        ".kmz",
+        (_kmz(), _kmz(how=zipfile.ZIP_STORED)),
+        partial(_read_chart, "kml"),
+        _spoilt_kmz,
+    ),
     "gpx": lambda: Reader(".gpx", (GPX,), partial(_read_chart, "gpx")),
     "zones": lambda: Reader(".geojson", (ZONES,), lambda path: geojson_zones.read(read_text(path))),
     "netcdf": lambda: Reader(".nc", _netcdf(), _read_netcdf),

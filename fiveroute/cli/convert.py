@@ -82,10 +82,9 @@ def command(
     What the target format cannot hold is refused. A chart (csv, geojson, kml or gpx) knows no
     fleet: the options from --start to --currents say the rest.
     """
-    from fiveroute.formats import read_instance, survey_format, write_instance
-    from fiveroute.formats.files import read_text
+    from fiveroute.formats import chart_text, read_instance, survey_format, write_instance
 
-    chart = survey_format(file, read_text(file)) if source_format is None else source_format
+    chart = survey_format(file, chart_text(file)) if source_format is None else source_format
     found = ""
     if chart in _CHARTS:
         # a name of currents is relative to the folder of the call, whatever that of the chart

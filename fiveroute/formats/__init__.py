@@ -24,12 +24,8 @@ from fiveroute.formats import (
     oplib,
     tsplib,
 )
-from fiveroute.formats.files import (
-    read_text,
-    require_writable,
-    title_of,
-    write_text_atomically,
-)
+from fiveroute.formats.files import require_writable, title_of, write_text_atomically
+from fiveroute.formats.kmz import chart_text
 from fiveroute.formats.native import currents_file, instance_hash, relocated
 from fiveroute.formats.plan_file import PlanFile, read_plan, write_plan
 from fiveroute.formats.survey import Survey, Terms
@@ -43,6 +39,7 @@ __all__ = [
     "Survey",
     "SurveyFormat",
     "Terms",
+    "chart_text",
     "currents_file",
     "instance_hash",
     "read_instance",
@@ -121,7 +118,7 @@ SURVEY_FORMATS = {
     "geojson": SurveyFormat(
         (".geojson",), re.compile(r'"type"\s*:\s*"Feature(Collection)?"'), geojson_nodes.read
     ),
-    "kml": SurveyFormat((".kml",), re.compile(r"<(\w+:)?kml[\s>]"), kml_nodes.read),
+    "kml": SurveyFormat((".kml", ".kmz"), re.compile(r"<(\w+:)?kml[\s>]"), kml_nodes.read),
     "gpx": SurveyFormat((".gpx",), re.compile(r"<(\w+:)?gpx[\s>]"), gpx_nodes.read),
 }
 """All formats of charts by name."""
@@ -145,7 +142,7 @@ def read_instance(path: Path, format_name: str | None = None) -> Instance:
         If the file cannot be read, or is no valid instance; it names file, line or field,
         the value, the rule and the remedy.
     """
-    text = read_text(path)
+    text = chart_text(path)
     try:
         if format_name is None and (chart := survey_format(path, text)) is not None:
             raise InputError(
@@ -231,7 +228,7 @@ def read_survey(path: Path, format_name: str | None = None) -> Survey:
     InputError
         If the file cannot be read, or is no valid chart; it says where.
     """
-    text = read_text(path)
+    text = chart_text(path)
     name = format_name or survey_format(path, text)
     try:
         if name not in SURVEY_FORMATS:

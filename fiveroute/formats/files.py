@@ -17,12 +17,15 @@ from fiveroute.whole_files import written_whole
 
 __all__ = [
     "MAX_BYTES",
+    "ZIP",
+    "decoded",
     "integer",
     "make_folder",
     "non_negative",
     "number",
     "numbered_lines",
     "positive",
+    "read_bytes",
     "read_text",
     "require_writable",
     "title_of",
@@ -32,7 +35,8 @@ __all__ = [
 MAX_BYTES = 32 * 2**20
 """Largest file that is read; 100,000 nodes take about 7 MB."""
 
-_ZIP = b"PK\x03\x04"
+ZIP = b"PK\x03\x04"
+"""How a zip archive begins."""
 
 _REMEDIES: tuple[tuple[type[OSError], str], ...] = (
     (FileNotFoundError, "does not exist; check the name"),
@@ -49,6 +53,21 @@ def read_text(path: Path) -> str:
     InputError
         If the file cannot be read, is larger than `MAX_BYTES`, empty or not UTF-8 text.
     """
+    data = read_bytes(path)
+    try:
+        return decoded(data)
+    except InputError as error:
+        raise error.at(path) from None
+
+
+def read_bytes(path: Path) -> bytes:
+    """Read a file of at most `MAX_BYTES`.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or is larger.
+    """
     try:
         with path.open("rb") as stream:
             data = stream.read(MAX_BYTES + 1)
@@ -56,23 +75,31 @@ def read_text(path: Path) -> str:
         raise InputError(_reason(error), file=path) from None
     if len(data) > MAX_BYTES:
         raise InputError(f"is larger than {MAX_BYTES // 2**20} MB; split it", file=path)
-    if data.startswith(_ZIP):
-        raise InputError(
-            "is a zip archive, as .xlsx and .kmz are; save it as CSV UTF-8, or as KML", file=path
-        )
+    return data
+
+
+def decoded(data: bytes) -> str:
+    """The text in the bytes of a file.
+
+    Raises
+    ------
+    InputError
+        If they are empty or not UTF-8 text.
+    """
+    if data.startswith(ZIP):
+        raise InputError("is a zip archive, as .xlsx is; save it as CSV UTF-8")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(
             "is no UTF-8 text; save the file as UTF-8 (a spreadsheet as CSV UTF-8)",
             value=data[error.start : error.start + 1],
-            file=path,
             line=data.count(b"\n", 0, error.start) + 1,
         ) from None
     if "\0" in text:
-        raise InputError("is a binary file; name a text file", file=path)
+        raise InputError("is a binary file; name a text file")
     if not text.strip():
-        raise InputError("is empty; name a file that holds something", file=path)
+        raise InputError("is empty; name a file that holds something")
     return text
 
 

@@ -73,7 +73,7 @@ def test_a_chart_says_what_was_understood(call: Any, tmp_path: Path) -> None:
     [
         ("route.gpx", '<gpx><rte><rtept lat="63" lon="10"/></rte></gpx>', ("nodes", "waypoint")),
         ("coast.kml", "<kml><LineString/></kml>", ("nodes", "missing")),
-        ("nodes.kmz", "PK\x03\x04", (".kmz", "save it as")),
+        ("nodes.kmz", "PK\x03\x04", ("nodes.kmz: is a damaged zip archive", "copy it again")),
     ],
 )
 def test_charts_without_nodes_are_refused(
