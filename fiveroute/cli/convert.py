@@ -59,7 +59,7 @@ _CHARTS = ("csv", "geojson", "kml", "gpx")
     "--zones",
     type=options.FILE,
     metavar="CHART",
-    help="Land and obstacles: the polygons of a GeoJSON or KML file.",
+    help="Land and obstacles: the polygons of a GeoJSON, KML or KMZ file.",
 )
 @click.option(
     "--currents",
@@ -79,8 +79,8 @@ def command(
 ) -> None:
     """Translate the instance FILE, or make one of a chart of nodes.
 
-    What the target format cannot hold is refused. A chart (csv, geojson, kml or gpx) knows no
-    fleet: the options from --start to --currents say the rest.
+    What the target format cannot hold is refused. A chart (csv, geojson, kml, also packed
+    as KMZ, or gpx) knows no fleet: the options from --start to --currents say the rest.
     """
     from fiveroute.formats import chart_text, read_instance, survey_format, write_instance
 
@@ -88,8 +88,8 @@ def command(
     found = ""
     if chart in _CHARTS:
         # a name of currents is relative to the folder of the call, whatever that of the chart
-        mission, source = _charted(file, chart, zones, terms), Path("chart")
-        found = _found(mission)
+        mission, areas = _charted(file, chart, zones, terms)
+        source, found = Path("chart"), _found(mission, areas)
     else:
         stated = [name for name, value in {**terms, "zones": zones}.items() if value is not None]
         if stated:
@@ -102,23 +102,26 @@ def command(
         note(f"{output}: {found}")
 
 
-def _found(mission: Instance) -> str:
+def _found(mission: Instance, areas: int) -> str:
     """What a chart has become, so that whoever made it sees what was not understood."""
     import numpy as np
 
     size = " by ".join(f"{span / 1e3:.3g}" for span in np.ptp(mission.points, axis=0))
-    zones = len(mission.ocean.obstacles) + len(mission.ocean.land)
+    parts = len(mission.ocean.obstacles) + len(mission.ocean.land)
+    holes = f", cut into {parts} without holes" if parts > areas else ""
     data = f"data {mission.total_data:.6g} in all"
     if all(node.data == 1.0 for node in mission.nodes):
         data = "each counts 1 as data"
     return (
         f"{counted(len(mission.nodes), 'node')} ({data}) in {size} km, "
-        f"{counted(zones, 'zone')} to keep out of"
+        f"{counted(areas, 'zone')} to keep out of{holes}"
     )
 
 
-def _charted(file: Path, chart: str | None, zones: Path | None, terms: dict[str, Any]) -> Instance:
-    """The mission that a chart of nodes becomes."""
+def _charted(
+    file: Path, chart: str | None, zones: Path | None, terms: dict[str, Any]
+) -> tuple[Instance, int]:
+    """The mission that a chart of nodes becomes, and how many zones were on the charts."""
     from fiveroute.errors import InputError
     from fiveroute.formats import Terms, read_survey
     from fiveroute.formats.files import title_of
@@ -133,6 +136,7 @@ def _charted(file: Path, chart: str | None, zones: Path | None, terms: dict[str,
     closed = None if zones is None else read_survey(zones)
     whole = Terms(**terms, currents=None if currents is None else str(currents))
     try:
-        return survey.instance(title_of(file), whole, closed)
+        mission = survey.instance(title_of(file), whole, closed)
     except InputError as error:
         raise error.at(file) from None
+    return mission, len(survey.areas) + (0 if closed is None else len(closed.areas))

@@ -2,9 +2,9 @@
 
 A ``Point``, or a ``MultiPoint`` of one, is a node, with the properties ``id`` or ``name``,
 ``data``, ``service_time`` and ``depth``, or minus its altitude where that is below zero. A
-``Polygon`` is a zone, and so is every part of a ``MultiPolygon``; ``kind`` says ``land`` or
-``obstacle``, which it is without one. A ``Point`` with a ``radius`` in metres is a round obstacle.
-Lines of the ``kind`` route are no nodes.
+``Polygon`` is a zone, with its holes, and so is every part of a ``MultiPolygon``; ``kind`` says
+``land`` or ``obstacle``, which it is without one. A ``Point`` with a ``radius`` in metres is a
+round obstacle. Lines of the ``kind`` route are no nodes.
 
 References
 ----------
@@ -21,7 +21,7 @@ from typing import Any
 from fiveroute.errors import InputError
 from fiveroute.formats.chart_fields import area_kind, fields_of, ring, site_of
 from fiveroute.formats.json_document import parsed
-from fiveroute.formats.survey import Area, Site, Survey, require_on_earth
+from fiveroute.formats.survey import Area, Site, Spot, Survey, require_on_earth
 
 __all__ = ["read"]
 
@@ -127,12 +127,13 @@ def _point(place: object, values: dict[str, str | None], at: str, where: str) ->
 
 
 def _polygon(rings: object, values: dict[str, str | None], at: str) -> Area:
-    outer, *holes = _list(rings, at) or [None]
-    if holes:
-        raise InputError("a zone must have no holes; cut it into parts without", field=at)
-    positions = [_position(position, at) for position in _list(outer, at)]
-    corners = [require_on_earth(lon, lat, at) for lon, lat, *_ in positions]
-    return Area(area_kind(values.get("kind"), at), ring(corners, at))
+    outer, *holes = (_ring(ring, at) for ring in _list(rings, at) or [None])
+    return Area(area_kind(values.get("kind"), at), outer, holes=tuple(holes), where=at)
+
+
+def _ring(positions: object, at: str) -> tuple[Spot, ...]:
+    corners = (_position(position, at) for position in _list(positions, at))
+    return ring([require_on_earth(lon, lat, at) for lon, lat, *_ in corners], at)
 
 
 def _position(value: object, where: str) -> list[float]:

@@ -3,8 +3,8 @@
 GeoJSON (RFC 7946) knows longitude and latitude only; by the prior arrangement that its section 4
 allows, positions here are local metres, x east and y north, as everywhere in an instance.
 
-- A ``Polygon`` is a zone, and so is every part of a ``MultiPolygon``. A hole would be a pool in
-  a zone; it is refused. Altitudes are dropped.
+- A ``Polygon`` is a zone, and so is every part of a ``MultiPolygon``. One with holes is cut into
+  parts without (`fiveroute.formats.holes`). Altitudes are dropped.
 - A ``Point`` with the property ``radius``, in metres, is a round obstacle.
 - The property ``kind`` says ``obstacle`` or ``land``; without it a zone is an obstacle. Other
   properties are left alone, and not kept.
@@ -21,10 +21,10 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator
-from itertools import pairwise
 from typing import Any
 
 from fiveroute.errors import InputError
+from fiveroute.formats.holes import anticlockwise, without_holes
 from fiveroute.formats.json_document import parsed
 from fiveroute.instance import Circle, Ocean, Polygon
 
@@ -111,10 +111,10 @@ def _zones(feature: dict[str, Any], where: str) -> Iterator[Circle | Polygon]:
         x, y = _position(place, where_place)
         yield Circle(x, y, _radius(feature, where))
     elif kind == "Polygon":
-        yield _polygon(place, where_place)
+        yield from _polygons(place, where_place)
     elif kind == "MultiPolygon":
         for i, part in enumerate(_list(place, where_place)):
-            yield _polygon(part, f"{where_place}[{i}]")
+            yield from _polygons(part, f"{where_place}[{i}]")
     else:
         raise _fault(
             "must be Polygon, MultiPolygon, or Point with a radius", f"{where}.geometry.type", kind
@@ -130,22 +130,25 @@ def _radius(feature: dict[str, Any], where: str) -> float:
     return float(radius)
 
 
-def _polygon(rings: object, where: str) -> Polygon:
-    """A polygon of one closed ring."""
-    ring, *holes = _list(rings, where) or [None]
-    if holes:
-        raise _fault("a zone must have no holes; cut it into parts without", where)
+def _polygons(rings: object, where: str) -> Iterator[Polygon]:
+    """The parts of a polygon without its holes."""
+    outer, *holes = (
+        _ring(ring, f"{where}[{k}]") for k, ring in enumerate(_list(rings, where) or [None])
+    )
+    for part in without_holes(outer, holes, where):
+        yield Polygon(part)
+
+
+def _ring(ring: object, where: str) -> tuple[tuple[float, float], ...]:
+    """The corners of a closed ring, the last of which repeats the first."""
     corners = [
-        _position(position, f"{where}[0][{i}]")
-        for i, position in enumerate(_list(ring, f"{where}[0]"))
+        _position(position, f"{where}[{i}]") for i, position in enumerate(_list(ring, where))
     ]
     if len(corners) < 4 or corners[0] != corners[-1]:
         raise _fault(
-            "a ring needs four positions at least, the last the same as the first",
-            f"{where}[0]",
-            corners,
+            "a ring needs four positions at least, the last the same as the first", where, corners
         )
-    return Polygon(tuple(corners[:-1]))
+    return tuple(corners[:-1])
 
 
 def _position(value: object, where: str) -> tuple[float, float]:
@@ -179,15 +182,6 @@ def _feature(kind: str, zone: Circle | Polygon) -> dict[str, Any]:
         geometry: dict[str, Any] = {"type": "Point", "coordinates": (zone.x, zone.y)}
         properties["radius"] = zone.radius
     else:
-        corners = _anticlockwise(zone.polygon)
+        corners = anticlockwise(zone.polygon)
         geometry = {"type": "Polygon", "coordinates": [[*corners, corners[0]]]}
     return {"type": "Feature", "properties": properties, "geometry": geometry}
-
-
-def _anticlockwise(corners: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
-    """The same ring from the same corner, in the sense of rotation of RFC 7946."""
-    x0, y0 = corners[0]
-    twice_area = math.fsum(
-        (xa - x0) * (yb - y0) - (ya - y0) * (xb - x0) for (xa, ya), (xb, yb) in pairwise(corners)
-    )
-    return (corners[0], *corners[:0:-1]) if twice_area < 0.0 else corners

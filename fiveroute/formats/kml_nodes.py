@@ -1,8 +1,9 @@
 """Nodes and zones from KML, as Google Earth and QGIS write it.
 
 Every ``Point`` of a placemark is a node, named by the placemark; its depth is minus its altitude
-where that is below zero. Every ``Polygon`` is a zone. ``ExtendedData`` may say ``data``,
-``service_time``, ``depth`` and ``kind``; everything else is left alone, links are never followed.
+where that is below zero. Every ``Polygon`` is a zone, with its holes. ``ExtendedData`` may say
+``data``, ``service_time``, ``depth`` and ``kind``; everything else is left alone, links are never
+followed.
 
 References
 ----------
@@ -17,7 +18,7 @@ from xml.etree.ElementTree import Element
 from fiveroute.errors import InputError
 from fiveroute.formats.chart_fields import area_kind, fields_of, parsed_number, ring, site_of
 from fiveroute.formats.safe_xml import local_name, named, parse_xml, text_of
-from fiveroute.formats.survey import Area, Site, Survey, require_on_earth
+from fiveroute.formats.survey import Area, Site, Spot, Survey, require_on_earth
 
 __all__ = ["read"]
 
@@ -68,10 +69,19 @@ def _site(point: Element, values: dict[str, str | None], where: str) -> Site:
 
 
 def _area(polygon: Element, values: dict[str, str | None], where: str) -> Area:
-    if any(named(polygon, "innerBoundaryIs")):
-        raise InputError("a zone must have no holes; cut it into parts without", field=where)
-    corners = [require_on_earth(lon, lat, where) for lon, lat, _ in _positions(polygon, where)]
-    return Area(area_kind(values.get("kind"), where), ring(corners, where))
+    outer = next(named(polygon, "outerBoundaryIs"), polygon)
+    inner = (hole for by in named(polygon, "innerBoundaryIs") for hole in named(by, "LinearRing"))
+    return Area(
+        area_kind(values.get("kind"), where),
+        _ring(outer, where),
+        holes=tuple(_ring(hole, where) for hole in inner),
+        where=where,
+    )
+
+
+def _ring(boundary: Element, where: str) -> tuple[Spot, ...]:
+    positions = _positions(boundary, where)
+    return ring([require_on_earth(lon, lat, where) for lon, lat, _ in positions], where)
 
 
 def _positions(geometry: Element, where: str) -> Iterator[tuple[float, float, float]]:

@@ -9,14 +9,16 @@ its ``crs``.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Literal, TypeVar
 
 import numpy as np
 
 from fiveroute.errors import InputError
+from fiveroute.formats.holes import without_holes
 from fiveroute.instance import Circle, Currents, Fleet, Instance, Node, Ocean, Point, Polygon
 from fiveroute.ocean.local_plane import LocalPlane
+from fiveroute.ocean.simple_polygon import first_conflict
 
 __all__ = ["Area", "Site", "Spot", "Survey", "Terms", "require_on_earth"]
 
@@ -64,11 +66,22 @@ class Area:
         Its corners, or the centre alone of a round one.
     radius
         Of a round one, in metres.
+    holes
+        Corners of its holes.
+    where
+        What to call it in an error.
     """
 
     kind: Literal["obstacle", "land"]
     corners: tuple[Spot, ...]
     radius: float | None = None
+    holes: tuple[tuple[Spot, ...], ...] = ()
+    where: str = field(default="", compare=False)
+
+    @property
+    def rings(self) -> tuple[tuple[Spot, ...], ...]:
+        """Its corners, then those of each hole."""
+        return self.corners, *self.holes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -148,14 +161,15 @@ class Survey:
         areas = [*self.areas, *self._areas_of(zones)]
         stops = [start, destination, *(site.spot for site in sites)]
         plane = _middle(stops) if self.geographic else None
-        placed = _placed([*stops, *(c for area in areas for c in area.corners)], plane)
+        corners = (corner for area in areas for ring in area.rings for corner in ring)
+        placed = _placed([*stops, *corners], plane)
         return Instance(  # the places come in the order in which they are asked for
             name=name,
             start=Point(*next(placed)),
             destination=Point(*next(placed)),
             nodes=tuple(_node(site, k, *next(placed)) for k, site in enumerate(sites, start=1)),
             fleet=_fleet(terms),
-            ocean=_ocean([(a, [next(placed) for _ in a.corners]) for a in areas], terms.currents),
+            ocean=Ocean(Currents(file=terms.currents), *_zones(areas, placed, plane)),
             crs=plane.proj if plane else None,
         )
 
@@ -189,7 +203,7 @@ class Survey:
                 "one has longitudes and latitudes, the other metres; use one kind for both",
                 field="nodes and zones",
             )
-        return zones.areas
+        return tuple(replace(area, where=f"--zones, {area.where}") for area in zones.areas)
 
 
 def require_on_earth(lon: float, lat: float, where: str, line: int | None = None) -> Spot:
@@ -265,14 +279,36 @@ def _fleet(terms: Terms) -> Fleet:
     )
 
 
-def _ocean(shapes: Sequence[tuple[Area, Sequence[Spot]]], currents: str | None) -> Ocean:
+def _zones(
+    areas: Sequence[Area], placed: Iterator[Spot], plane: LocalPlane | None
+) -> tuple[tuple[Circle | Polygon, ...], tuple[Polygon, ...]]:
+    """Obstacles and land, with the corners of each in metres."""
     obstacles: list[Circle | Polygon] = []
     land: list[Polygon] = []
-    for area, corners in shapes:
+    for area in areas:
+        outer, *holes = [[next(placed) for _ in ring] for ring in area.rings]
         if area.radius is not None:
-            obstacles.append(Circle(*corners[0], area.radius))
-        elif area.kind == "land":
-            land.append(Polygon(tuple(corners)))
-        else:
-            obstacles.append(Polygon(tuple(corners)))
-    return Ocean(Currents(file=currents), tuple(obstacles), tuple(land))
+            obstacles.append(Circle(*outer[0], area.radius))
+            continue
+        parts = without_holes(outer, holes, area.where)
+        for part in parts:
+            _require_simple(part, area.where, plane)
+        (land if area.kind == "land" else obstacles).extend(map(Polygon, parts))
+    return tuple(obstacles), tuple(land)
+
+
+def _require_simple(corners: Sequence[Spot], where: str, plane: LocalPlane | None) -> None:
+    """Refuse a polygon that crosses or touches itself, before anybody plans around it."""
+    conflict = first_conflict(np.array(corners, dtype=np.float64))
+    if conflict is not None:
+        spot = (
+            np.array(conflict)[:, None]
+            if plane is None
+            else plane.unproject(*np.array([conflict]).T)
+        )
+        x, y = (float(part[0]) for part in spot)
+        raise InputError(
+            f"is no simple polygon (see the corner {x:.8g}, {y:.8g}); its edges must not cross or "
+            "touch one another: repair it, in QGIS by 'Fix geometries'",
+            field=where,
+        )

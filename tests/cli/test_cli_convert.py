@@ -1,6 +1,7 @@
 """From a chart of nodes to a mission, at the command line."""
 
 import json
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -93,6 +94,26 @@ def test_a_coast_of_lines_keeps_nobody_out(call: Any, table: Path, tmp_path: Pat
     answer = call("convert", table, *how)
     assert answer.code == 2
     assert "--zones: hold no polygon" in answer.err
+
+
+def test_an_atoll_in_an_archive_becomes_land_with_a_lagoon(
+    call: Any, table: Path, tmp_path: Path
+) -> None:
+    rings = ("10.2,63 10.3,63 10.3,63.1 10.2,63", "10.25,63.01 10.29,63.01 10.29,63.05 10.25,63.01")
+    outer, inner = (f"<LinearRing><coordinates>{r}</coordinates></LinearRing>" for r in rings)
+    with zipfile.ZipFile(tmp_path / "atoll.kmz", "w") as archive:
+        archive.writestr(
+            "doc.kml",
+            "<kml><Placemark><ExtendedData><Data name='kind'><value>land</value></Data>"
+            f"</ExtendedData><Polygon><outerBoundaryIs>{outer}</outerBoundaryIs>"
+            f"<innerBoundaryIs>{inner}</innerBoundaryIs></Polygon></Placemark></kml>",
+        )
+    target = tmp_path / "sea.json"
+    how = ("--to", "native", "--output", target, *ENDS, *FLEET, "--zones", tmp_path / "atoll.kmz")
+    answer = call("convert", table, *how)
+    assert (answer.code, answer.out) == (0, "")
+    assert answer.err.endswith("1 zone to keep out of, cut into 2 without holes\n")
+    assert len(json.loads(target.read_text())["ocean"]["land"]) == 2
 
 
 @pytest.mark.parametrize(

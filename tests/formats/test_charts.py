@@ -191,7 +191,7 @@ POINT = {"type": "Point", "coordinates": [1, 2]}
         ("geojson", feature({"type": "Point", "coordinates": [500000, 7e6]}), ("longitude",)),
         ("geojson", feature({"type": "LineString", "coordinates": SQUARE}), ("Polygon",)),
         ("geojson", feature({"type": "Polygon", "coordinates": [SQUARE[:3]]}), ("ring",)),
-        ("geojson", feature({"type": "Polygon", "coordinates": [SQUARE] * 2}), ("holes",)),
+        ("geojson", feature({"type": "Polygon", "coordinates": [SQUARE, SQUARE[1:]]}), ("ring",)),
         ("geojson", feature({"type": "Polygon", "coordinates": [SQUARE]}, kind="bog"), ("land",)),
         ("geojson", feature({"type": "MultiPoint", "coordinates": SQUARE}), ("of one",)),
         ("geojson", feature(None), ("geometry",)),

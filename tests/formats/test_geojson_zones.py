@@ -96,6 +96,14 @@ def test_what_others_write_is_read() -> None:
     assert ocean == Ocean(obstacles=(triangle, Circle(3.0, 4.0, 2.0)), land=(triangle, triangle))
 
 
+def test_holes_are_cut_out() -> None:
+    hole = [[2.0, 0.5], [2.0, 0.8], [4.0, 0.8], [2.0, 0.5]]
+    ocean = geojson_zones.read(collection(feature("Polygon", [RING, hole], kind="land")))
+    whole = shapely.union_all([shapely.Polygon(part.polygon) for part in ocean.land])
+    assert len(ocean.land) == 2
+    assert whole.symmetric_difference(shapely.Polygon(RING, [hole])).area < 1e-12
+
+
 @pytest.mark.parametrize(
     ("wrong", "sentence"),
     [
@@ -114,7 +122,7 @@ def test_what_others_write_is_read() -> None:
         (feature("Point", [1], radius=5), r"features\[1\].geometry.coordinates: \[1\]: a position"),
         (feature("Point", 7, radius=5), r"features\[1\].geometry.coordinates: 7: must be a list"),
         (feature("Polygon", []), r"features\[1\].geometry.coordinates\[0\]: must be a list"),
-        (feature("Polygon", [RING, RING]), r"features\[1\].geometry.coordinates: .*no holes"),
+        (feature("Polygon", [RING, RING]), r"features\[1\].geometry.coordinates: its holes must"),
         (feature("Polygon", [RING[:3]]), r"features\[1\].geometry.coordinates\[0\]: .*four pos"),
         (feature("Polygon", [[*RING, [1, 1]]]), r"features\[1\].*\[0\]: .*the same as the first"),
         (
@@ -124,7 +132,8 @@ def test_what_others_write_is_read() -> None:
         (feature("Polygon", [[[0, 10**400]] * 4]), r"features\[1\].*\[0\]\[0\]: .*two finite"),
         (feature("Polygon", [[[0, float("nan")]] * 4]), r"features\[1\].*\[0\]\[0\]: .*two finite"),
         (feature("MultiPolygon", [[RING], 5]), r"features\[1\].geometry.coordinates\[1\]: 5: must"),
-        (feature("MultiPolygon", [[RING, RING]]), r"features\[1\].geometry.coordinates\[0\]: .*no"),
+        (feature("MultiPolygon", [[RING, RING]]), r"features\[1\].*coordinates\[0\]: its holes"),
+        (feature("Polygon", [RING, RING[:3]]), r"features\[1\].*coordinates\[1\]: .*four pos"),
     ],
 )
 def test_a_wrong_feature_is_named(wrong: Any, sentence: str) -> None:

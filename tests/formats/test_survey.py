@@ -15,6 +15,9 @@ from fiveroute.errors import InputError
 from fiveroute.formats import native
 from fiveroute.formats.survey import Area, Site, Survey, Terms
 from fiveroute.instance import Circle, Polygon
+from fiveroute.ocean.barriers import clearance, leg_clearance
+from fiveroute.ocean.local_plane import LocalPlane
+from fiveroute.ocean.obstacles import barriers_of
 
 TERMS = Terms(start=(10.0, 63.0), destination=(10.1, 63.0), speed=1.5, endurance=3600.0)
 CHART = Survey(
@@ -129,3 +132,78 @@ def test_ends_at_several_places_must_be_told_apart() -> None:
         chart.instance("x", replace(TERMS, start=None))
     same = replace(CHART, sites=(*CHART.sites, twice[0], twice[0]))
     assert same.instance("x", replace(TERMS, start=None)) == CHART.instance("x", TERMS)
+
+
+ISLAND = ((10.2, 63.0), (10.3, 63.0), (10.3, 63.1), (10.2, 63.1))
+LAGOON = ((10.22, 63.02), (10.24, 63.08), (10.28, 63.05))
+
+
+def land(*rings: tuple[tuple[float, float], ...], stop: tuple[float, float] = (10.0, 63.0)) -> Any:
+    """Land of one polygon, its holes after its rim, and the barriers around a mission."""
+    zones = Survey(True, (), (Area("land", rings[0], holes=rings[1:], where="placemark 7"),))
+    chart = Survey(True, (Site("a", stop),))
+    mission = chart.instance("x", replace(TERMS, start=stop, destination=stop), zones)
+    return barriers_of(mission.ocean), LocalPlane(*_origin(mission.crs))
+
+
+def _origin(crs: str | None) -> tuple[float, float]:
+    words = dict(word.split("=") for word in (crs or "").split())
+    return float(words["+lon_0"]), float(words["+lat_0"])
+
+
+def clear(of: Any, lon: float, lat: float) -> float:
+    barriers, plane = of
+    x, y = plane.project(np.array([lon]), np.array([lat]))
+    return clearance(barriers, float(x[0]), float(y[0]))
+
+
+@pytest.mark.parametrize("turn", [1, -1])
+@pytest.mark.parametrize("hole_turn", [1, -1])
+def test_a_lagoon_is_water(turn: int, hole_turn: int) -> None:
+    """Whatever the sense of rotation; corners that are repeated count once."""
+    coast = land((*ISLAND[::turn], ISLAND[::turn][-1]), LAGOON[::hole_turn])
+    assert clear(coast, 10.245, 63.05) > 200.0
+    assert clear(coast, 10.21, 63.05) < -300.0
+    assert clear(coast, 10.29, 63.07) < -300.0
+    assert clear(coast, 10.19, 63.05) > 400.0
+
+
+@pytest.mark.parametrize("west", [(-179.9,) * 2, (180.1,) * 2, (-179.9, 180.1)])
+def test_land_lies_across_the_180th_meridian(west: tuple[float, float]) -> None:
+    coast = land(((179.9, -17.0), (west[0], -17.0), (west[1], -16.9)), stop=(179.7, -17.0))
+    for lon in (179.99, 180.0, -180.0, -179.95):
+        assert clear(coast, lon, -16.99) < -500.0
+    assert clear(coast, -179.8, -17.0) > 10_000.0
+
+
+def test_land_that_is_cut_at_the_180th_meridian_has_no_gap_there() -> None:
+    """RFC 7946 asks for two parts; what they share is on the same line of either."""
+    parts = (
+        Area("land", ((179.9, -17.0), (180.0, -17.0), (180.0, -16.9), (179.9, -16.9))),
+        Area("land", ((-180.0, -17.0), (-179.9, -17.0), (-179.9, -16.9), (-180.0, -16.9))),
+    )
+    ends = replace(TERMS, start=(179.8, -17.1), destination=(179.8, -17.1))
+    mission = Survey(True, (Site("a", (179.8, -17.1)),), parts).instance("x", ends)
+    x, y = LocalPlane(*_origin(mission.crs)).project(np.full(2, 180.0), np.array([-17.1, -16.8]))
+    assert leg_clearance(barriers_of(mission.ocean), x[0], y[0], x[1], y[1]) < 0.0
+    spots = [set(polygon.polygon) for polygon in mission.ocean.land]
+    assert len(spots[0] & spots[1]) == 2
+
+
+@pytest.mark.parametrize(
+    "rings",
+    [
+        ((ISLAND[0], ISLAND[2], ISLAND[1], ISLAND[3]),),  # an hourglass
+        ((*ISLAND, (10.25, 63.0)),),  # a corner on another edge
+        ((*ISLAND[:2], (10.4, 63.05), ISLAND[1], *ISLAND[2:]),),  # a spike
+    ],
+)
+def test_polygons_that_meet_themselves_are_refused(rings: Any) -> None:
+    with pytest.raises(InputError, match=r"^--zones, placemark 7: is no simple polygon .*10\.[23]"):
+        land(*rings)
+
+
+@pytest.mark.parametrize("east", [0.05, 1.0])
+def test_holes_lie_in_their_zone(east: float) -> None:
+    with pytest.raises(InputError, match=r"^--zones, placemark 7: its holes must lie in the zone"):
+        land(ISLAND, tuple((lon + east, lat) for lon, lat in LAGOON))
