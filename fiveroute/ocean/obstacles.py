@@ -13,7 +13,7 @@ import numpy as np
 
 from fiveroute.errors import InputError
 from fiveroute.instance import Circle, Instance, Ocean, Polygon
-from fiveroute.ocean.barriers import Barriers, clearance, no_barriers
+from fiveroute.ocean.barriers import Barriers, boxed, clearance, no_barriers
 from fiveroute.ocean.current_grid import Region
 from fiveroute.ocean.land_mask import LandDistance
 from fiveroute.ocean.simple_polygon import first_conflict
@@ -125,10 +125,12 @@ def _with_zones(open_water: Barriers, zones: dict[str, Circle | Polygon]) -> Bar
         _require_simple(name, polygon)
     corners = [corner for polygon in polygons.values() for corner in polygon.polygon]
     counts = [len(polygon.polygon) for polygon in polygons.values()]
-    return open_water._replace(
-        circles=np.array(circles, dtype=np.float64).reshape(-1, 3),
-        corners=np.array(corners, dtype=np.float64).reshape(-1, 2),
-        first=np.cumsum([0, *counts], dtype=np.int64),
+    return boxed(
+        open_water._replace(
+            circles=np.array(circles, dtype=np.float64).reshape(-1, 3),
+            corners=np.array(corners, dtype=np.float64).reshape(-1, 2),
+            first=np.cumsum([0, *counts], dtype=np.int64),
+        )
     )
 
 

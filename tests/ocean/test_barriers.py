@@ -10,7 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from numpy.typing import ArrayLike, NDArray
 
-from fiveroute.ocean.barriers import Barriers, clearance, leg_clearance, no_barriers
+from fiveroute.ocean.barriers import Barriers, boxed, clearance, leg_clearance, no_barriers
 from fiveroute.ocean.current_grid import Region
 
 Floats = NDArray[np.float64]
@@ -163,6 +163,27 @@ def test_open_water_is_free_for_ever() -> None:
     assert clearance(no_barriers(), 1e9, -1e9) == math.inf
     assert not barriers(circles=[(0.0, 0.0, 1.0)]).is_open
     assert not barriers(polygons=[SQUARE]).is_open
+
+
+@FEW
+@given(seed=SEED, corners=st.integers(3, 300))
+def test_boxes_change_nothing(seed: int, corners: int) -> None:
+    """To the last bit, for legs of all lengths, in, out of and across polygons of many corners."""
+    rng = np.random.default_rng(seed)
+    coasts = []
+    for count in (corners, 5):
+        angle = np.sort(rng.uniform(0.0, 2.0 * math.pi, count))
+        radius = rng.uniform(20.0, 60.0) * (1.0 + 0.3 * rng.uniform(-1.0, 1.0, count))
+        ring = np.column_stack([radius * np.cos(angle), radius * np.sin(angle)])
+        coasts.append((ring + rng.uniform(-60.0, 60.0, 2)).round(int(rng.integers(0, 3))))
+    plain = barriers(polygons=coasts, margin=2.0)
+    quick = boxed(plain)
+    assert len(quick.boxes) == -(-corners // 32) + 1
+    places = rng.uniform(-120.0, 120.0, (40, 2))
+    for x, y in (*places, *coasts[0][:5]):
+        east, north = rng.uniform(-1.0, 1.0, 2) * rng.choice([0.0, 1.0, 30.0, 200.0])
+        leg = float(x), float(y), float(x + east), float(y + north)
+        assert leg_clearance(quick, *leg) == leg_clearance(plain, *leg)
 
 
 def test_corners_given_twice_change_nothing() -> None:
