@@ -283,6 +283,7 @@ CSV = (
 )
 POINTS = [("start", 10.0, 63.0), ("a", 10.1, 63.0), ("b", 10.1, 63.1), ("destination", 10.2, 63.0)]
 RING = [[9.9, 63.2], [10.0, 63.2], [10.0, 63.3], [9.9, 63.2]]
+HOLE = [[9.97, 63.21], [9.98, 63.25], [9.99, 63.22], [9.97, 63.21]]
 CHART = json.dumps(
     {
         "type": "FeatureCollection",
@@ -309,7 +310,7 @@ CHART = json.dumps(
             {
                 "type": "Feature",
                 "properties": None,
-                "geometry": {"type": "MultiPolygon", "coordinates": [[RING], [RING]]},
+                "geometry": {"type": "MultiPolygon", "coordinates": [[RING, HOLE], [RING]]},
             },
         ],
     }
@@ -323,9 +324,14 @@ KML = (
         f"<Point><coordinates>{lon},{lat},-3</coordinates></Point></Placemark>\n"
         for name, lon, lat in POINTS
     )
-    + "<Placemark><Polygon><outerBoundaryIs><LinearRing><coordinates>"
-    + " ".join(f"{lon},{lat}" for lon, lat in RING)
-    + "</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark></Document></kml>\n"
+    + "<Placemark><Polygon>"
+    + "".join(
+        f"<{side}BoundaryIs><LinearRing><coordinates>"
+        + " ".join(f"{lon},{lat}" for lon, lat in ring)
+        + f"</coordinates></LinearRing></{side}BoundaryIs>"
+        for side, ring in (("outer", RING), ("inner", HOLE))
+    )
+    + "</Polygon></Placemark></Document></kml>\n"
 ).encode()
 
 

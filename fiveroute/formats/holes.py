@@ -50,7 +50,7 @@ def without_holes(outer: Ring, holes: Sequence[Ring], where: str) -> list[tuple[
     """
     if not holes:
         return [tuple(outer)]
-    rest = [anticlockwise(outer), *(anticlockwise(hole)[::-1] for hole in holes)]
+    rest: list[Ring] = [anticlockwise(outer), *(anticlockwise(hole)[::-1] for hole in holes)]
     parts: list[Ring] = []
     try:
         for west, east in _strips(rest):
