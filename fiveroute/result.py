@@ -89,8 +89,7 @@ class Result:
         assert not violations, f"{method} returned an infeasible plan: {violations[:3]}"
         objective = plan.objective(problem)
         if bound is not None:
-            slack = PROOF_TOLERANCE * max(1.0, objective)
-            assert bound >= objective - slack, (
+            assert bound >= (1.0 - PROOF_TOLERANCE) * objective, (
                 f"{method} claims bound {bound} below objective {objective}"
             )
             bound = max(bound, objective)
@@ -113,7 +112,7 @@ def optimality_gap(objective: float | None, bound: float | None) -> float | None
 
 def is_closed(objective: float, bound: float) -> bool:
     """Whether objective and bound meet within the proof tolerance."""
-    return bound - objective <= PROOF_TOLERANCE * max(1.0, objective)
+    return bound - objective <= PROOF_TOLERANCE * objective
 
 
 @dataclass(frozen=True, slots=True)

@@ -48,11 +48,19 @@ class Method:
         routes: Sequence[Route] = (),
         progress: ProgressCallback | None = None,
     ) -> Result:
-        """Solve the problem."""
+        """Solve the problem, its data counted in a unit that fits them."""
+        from fiveroute.models.data_unit import in_fitting_unit
+
         method = import_module(self.module)
         known = {"routes": routes} if self.takes_routes else {}
-        result = method.solve(problem, limits, warm_start=warm_start, progress=progress, **known)
-        return cast(Result, result)
+
+        def run(problem: TeamOrienteering, progress: ProgressCallback | None) -> Result:
+            result = method.solve(
+                problem, limits, warm_start=warm_start, progress=progress, **known
+            )
+            return cast(Result, result)
+
+        return in_fitting_unit(run, problem, progress)
 
     def supports(self, problem: TeamOrienteering) -> bool:
         """Whether the method takes such a problem."""

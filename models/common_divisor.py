@@ -7,6 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from fiveroute.result import PROOF_TOLERANCE
+
 __all__ = ["common_divisor", "rounded_down"]
 
 _DECIMALS = (1, 10, 100, 1000)
@@ -27,7 +29,13 @@ def common_divisor(profit: NDArray[np.float64]) -> float | None:
 
 
 def rounded_down(bound: float, profit: NDArray[np.float64]) -> float:
-    """The largest value that an objective of at most `bound` can have."""
+    """The largest value that an objective of at most `bound` can have.
+
+    Without a grid that is all there is to say, but for one thing: an objective is 0 or no less
+    than the least data of a node.
+    """
+    if 0.0 <= bound < (1.0 - PROOF_TOLERANCE) * profit.min(initial=np.inf, where=profit > 0.0):
+        return 0.0
     step = common_divisor(profit)
     if step is None or not math.isfinite(bound):
         return bound

@@ -30,7 +30,7 @@ from scipy.sparse import coo_array, csr_array, eye_array, hstack
 
 from fiveroute.limits import Clock, Limits, ProgressCallback
 from fiveroute.models.bounds import Effort, quick_bound
-from fiveroute.models.common_divisor import common_divisor, rounded_down
+from fiveroute.models.common_divisor import common_divisor
 from fiveroute.models.greedy_plan import offer_greedy_plan
 from fiveroute.models.highs import Outcome, Program
 from fiveroute.models.incumbent import Incumbent
@@ -235,8 +235,7 @@ class _Choice:
 
     def _lower(self, bound: float | None) -> None:
         if bound is not None and np.isfinite(bound):
-            bound = rounded_down((bound + _MARGIN) * self.unit, self.problem.profit)
-            self.incumbent.lower(max(bound, self.incumbent.objective))
+            self.incumbent.lower(max((bound + _MARGIN) * self.unit, self.incumbent.objective))
 
     def _offer(self, values: Floats) -> None:
         times = np.rint(values[: len(self.places)]).astype(np.int64)

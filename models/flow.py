@@ -42,7 +42,7 @@ from numpy.typing import NDArray
 
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.models.bounds import quick_bound
-from fiveroute.models.common_divisor import common_divisor, rounded_down
+from fiveroute.models.common_divisor import common_divisor
 from fiveroute.models.flow_program import FlowProgram, Routes, arcs_of
 from fiveroute.models.flow_relaxation import FlowRelaxation, relax
 from fiveroute.models.greedy_plan import offer_greedy_plan
@@ -110,7 +110,7 @@ def solve(
     root = relax(network, incumbent.clock)
     if root.dual.value < 0.0:
         return incumbent.infeasible()
-    incumbent.lower(rounded_down(root.dual.value, problem.profit))
+    incumbent.lower(root.dual.value)
     visits = np.append(root.visits[: network.n + 1], 0.0)
     offer_greedy_plan(incumbent, problem.profit * (_UNVISITED + visits))
     if incumbent.must_stop:
@@ -193,10 +193,9 @@ def _branch(program: FlowProgram, incumbent: Incumbent, others: float) -> Outcom
             program.start_from(incumbent.plan)
         outcome = program.solve(incumbent.clock.limits.gap)
         bound = -np.inf if outcome is Outcome.INFEASIBLE else program.bound
-        bound = rounded_down(max(bound, others), incumbent.problem.profit)
         found = program.routes() or Routes([], [])
         late = _offer(found, program.network, incumbent) if found.routes else []
-        incumbent.lower(max(bound, incumbent.objective))
+        incumbent.lower(max(bound, others, incumbent.objective))
         for auv_class, route in late:
             program.forbid(auv_class, route)
         for cycle in found.cycles:

@@ -13,6 +13,7 @@ import threading
 
 from fiveroute.check import check
 from fiveroute.limits import Limits, Progress, ProgressCallback
+from fiveroute.models.common_divisor import rounded_down
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result, is_closed, optimality_gap
 from fiveroute.routes import Plan
@@ -93,10 +94,11 @@ class Incumbent:
         return True
 
     def lower(self, bound: float) -> None:
-        """Keep a proven bound if it is the least so far."""
+        """Keep a proven bound if, rounded down to what plans collect, it is the least so far."""
+        bound = rounded_down(max(bound, 0.0), self.problem.profit)
         with self._lock:
             if bound < self.bound:
-                self.bound = max(bound, 0.0)
+                self.bound = bound
                 self._tell()
 
     def result(self) -> Result:

@@ -37,7 +37,7 @@ def units_per_one(values: NDArray[np.float64], whole: float, most: float) -> flo
         if units * whole > most:
             break
         scaled = units * values
-        if (np.abs(scaled - np.rint(scaled)) <= ROUNDING).all():
+        if (np.abs(scaled - np.rint(scaled)) <= ROUNDING * np.minimum(scaled, 1.0)).all():
             return units
     return min(most / whole, _FINEST)
 

@@ -40,10 +40,12 @@ def fractional_knapsack(
     profit: NDArray[np.float64], weight: NDArray[np.float64], capacity: float
 ) -> float:
     """Greatest profit of parts of items within a capacity, rounded up."""
-    order = np.argsort(-profit / np.maximum(weight, 1e-300), kind="stable")
+    with np.errstate(over="ignore"):  # what weighs next to nothing comes first
+        order = np.argsort(-profit / np.maximum(weight, 1e-300), kind="stable")
     weight = weight[order]
     room = np.maximum(capacity * (1.0 + _SAFE) - (np.cumsum(weight) - weight), 0.0)
-    parts = np.where(weight <= room, 1.0, room / np.maximum(weight, 1e-300))
+    parts = np.ones(len(weight))
+    np.divide(np.minimum(room, weight), weight, out=parts, where=weight > 0.0)
     return float(profit[order] @ parts) * (1.0 + _SAFE)
 
 

@@ -62,9 +62,15 @@ def test_gap_of_nothing_collected_is_huge_not_undefined() -> None:
     assert optimality_gap(0.0, 0.0) == 0.0
 
 
-def test_closed_is_relative_for_large_values() -> None:
-    assert is_closed(1e6, 1e6 + 0.9)
-    assert not is_closed(1.0, 1.0 + 2e-6)
+@pytest.mark.parametrize("unit", [1e-12, 1e-3, 1.0, 1e6])
+def test_closed_is_relative_whatever_the_unit(unit: float) -> None:
+    assert is_closed(unit, unit * (1.0 + 0.9e-6))
+    assert not is_closed(unit, unit * (1.0 + 2e-6))
+
+
+def test_nothing_is_closed_by_nothing_only() -> None:
+    assert is_closed(0.0, 0.0)
+    assert not is_closed(0.0, 1e-12)
 
 
 @pytest.mark.parametrize(

@@ -38,5 +38,12 @@ def test_bounds_fall_to_the_grid_and_never_below_a_value_on_it() -> None:
 
 
 def test_without_a_grid_bounds_stay_as_they_are() -> None:
-    assert rounded_down(2.5, np.array([math.e])) == 2.5
+    assert rounded_down(3.5, np.array([math.e])) == 3.5
     assert rounded_down(math.inf, np.array([1.0])) == math.inf
+
+
+def test_less_than_any_node_holds_is_nothing() -> None:
+    profit = np.array([0.0, 3e-7, math.pi, 0.0])
+    assert rounded_down(2.9e-7, profit) == 0.0
+    assert rounded_down(3e-7 * (1.0 - 1e-12), profit) > 0.0
+    assert rounded_down(1e-300, np.zeros(3)) == 0.0

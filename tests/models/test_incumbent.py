@@ -10,6 +10,7 @@ from fiveroute.routes import Plan
 
 # Two nodes of data 1 and 3, one second between any two vertices, time for one of them.
 PROBLEM = TeamOrienteering([[0, 1, 1, 1]] * 4, [0] * 4, [0, 1, 3, 0], [2.0])
+OFF_GRID = TeamOrienteering(PROBLEM.travel, PROBLEM.service, [0, 1, 3.00007, 0], [2.0])
 
 
 def test_it_begins_with_the_empty_plan_and_all_data() -> None:
@@ -26,12 +27,18 @@ def test_plans_pass_the_judge_and_only_better_ones_are_kept() -> None:
 
 
 def test_bounds_only_fall_and_settle_the_matter() -> None:
-    answer = Incumbent(PROBLEM, "test", warm_start=Plan(((2,),)))
-    for bound, expected in ((9.0, 4.0), (3.5, 3.5), (3.7, 3.5), (3.0, 3.0)):
+    answer = Incumbent(OFF_GRID, "test", warm_start=Plan(((2,),)))
+    for bound, expected in ((9.0, 4.00007), (3.5, 3.5), (3.7, 3.5), (3.00007, 3.00007)):
         answer.lower(bound)
         assert answer.bound == expected
     assert answer.is_settled
     assert answer.result().status is Status.OPTIMAL
+
+
+def test_bounds_fall_to_what_a_plan_can_collect() -> None:
+    answer = Incumbent(PROBLEM, "test", warm_start=Plan(((2,),)))
+    answer.lower(3.9)
+    assert answer.bound == 3.0
 
 
 def test_the_gap_of_the_limits_settles_too() -> None:

@@ -20,6 +20,7 @@ def test_few_decimals_stay_exact(values: list[float], units: float) -> None:
 
 def test_other_numbers_get_all_units_there_are() -> None:
     assert units_per_one(np.array([np.pi]), 4.0, 1e9) == 2.5e8
+    assert units_per_one(np.array([1e-10, 0.0]), 1e-10, 1e6) == pytest.approx(1e16)
     assert np.isfinite(units_per_one(np.array([1e-310]), 1e-310, 1e9))
 
 

@@ -24,6 +24,12 @@ def test_weightless_items_are_free() -> None:
     assert fractional_knapsack(np.array([1.0, 2.0]), np.zeros(2), 0.0) == pytest.approx(3.0)
 
 
+def test_weights_next_to_nothing_overflow_nothing() -> None:
+    profit, weight = np.array([1e9, 3e9]), np.array([1e-308, 0.0])
+    assert fractional_knapsack(profit, weight, 0.0) == pytest.approx(3e9)
+    assert fractional_knapsack(profit, weight, 5e-309) == pytest.approx(3.5e9)
+
+
 def test_shares_by_hand() -> None:
     """All legs take 1 s: the ends take 1 s of every route, and every node 1 s of the rest."""
     problem = TeamOrienteering(np.ones((7, 7)), np.zeros(7), [0, 1, 1, 1, 1, 1, 0], [2.5, 3.5])
