@@ -91,17 +91,18 @@ def check_claims(
     Returns
     -------
     list of Violation
-        Claims that differ from the truth by more than one part in a million.
+        Claims that differ from the truth by more than one part in a million, and times by more
+        than a microsecond besides.
     """
-    claims: list[tuple[str, int | None, float, float]] = [
-        ("objective", None, objective, plan.objective(problem))
+    claims: list[tuple[str, int | None, float, float, float]] = [
+        ("objective", None, objective, plan.objective(problem), 0.0)
     ]
     claims += [
-        ("duration", auv, claimed, true)
+        ("duration", auv, claimed, true, 1.0)
         for auv, (claimed, true) in enumerate(zip(durations, plan.durations(problem), strict=True))
     ]
     return [
         Violation(kind, auv, None, claimed - true)
-        for kind, auv, claimed, true in claims
-        if abs(claimed - true) > CLAIM_TOLERANCE * max(1.0, abs(true))
+        for kind, auv, claimed, true, least in claims
+        if abs(claimed - true) > CLAIM_TOLERANCE * max(least, abs(true))
     ]

@@ -1,4 +1,5 @@
 from collections.abc import Sequence
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -85,4 +86,7 @@ def test_true_claims_stand_and_false_ones_fall() -> None:
     plan = Plan.of([[1, 3], []])
     assert check_claims(LINE, plan, 7.0, [6.0, 4.0]) == []
     assert check_claims(LINE, plan, 9.0, [6.0, 4.0]) == [Violation("objective", None, None, 2.0)]
+    assert check_claims(LINE, plan, 7.0, [6.0, 4.0 + 3e-6]) == []
+    traces = replace(LINE, profit=LINE.profit * 1e-8)
+    assert [fault.kind for fault in check_claims(traces, plan, 9e-8, [6.0, 4.0])] == ["objective"]
     assert check_claims(LINE, plan, 7.0, [6.0, 3.5]) == [Violation("duration", 1, None, -0.5)]
