@@ -52,6 +52,10 @@ class Limits:
     interrupt: threading.Event = field(default_factory=threading.Event, compare=False)
     work: float = math.inf
 
+    def __reduce__(self) -> tuple[object, ...]:
+        """Without the interrupt, which another process cannot hear: the copy has its own."""
+        return _uninterrupted, (self.time, self.gap, self.work)
+
     def __post_init__(self) -> None:
         for name in ("time", "gap", "work"):
             value = getattr(self, name)
@@ -72,6 +76,10 @@ class Limits:
     def within(self, time: float) -> Limits:
         """The same description with at most `time` seconds."""
         return replace(self, time=min(self.time, max(time, 0.0)))
+
+
+def _uninterrupted(time: float, gap: float, work: float) -> Limits:
+    return Limits(time, gap, work=work)
 
 
 class WorkingTime:

@@ -1,4 +1,5 @@
 import math
+import pickle
 import time
 
 import pytest
@@ -35,6 +36,14 @@ def test_within_never_extends() -> None:
     assert Limits(time=3.0).within(5.0).time == 3.0
     assert Limits(time=3.0).within(-1.0).time == 0.0
     assert Limits(time=3.0, gap=0.1).within(2.0).gap == 0.1
+
+
+def test_a_copy_for_another_process_has_an_interrupt_of_its_own() -> None:
+    limits = Limits(time=3.0, gap=0.1, work=5.0)
+    limits.interrupt.set()
+    copy = pickle.loads(pickle.dumps(limits))
+    assert copy == limits
+    assert not copy.interrupt.is_set()
 
 
 def test_work_is_counted_and_ends_a_run() -> None:
