@@ -42,7 +42,7 @@ class Method:
     def __call__(
         self,
         problem: TeamOrienteering,
-        limits: Limits | None = None,
+        limits: Limits | float | None = None,
         *,
         warm_start: Plan | None = None,
         routes: Sequence[Route] = (),
@@ -51,6 +51,8 @@ class Method:
         """Solve the problem, its data counted in a unit that fits them."""
         from fiveroute.models.data_unit import in_fitting_unit
 
+        _require_problem(problem)
+        limits = Limits.of(limits)
         method = import_module(self.module)
         known = {"routes": routes} if self.takes_routes else {}
 
@@ -65,6 +67,15 @@ class Method:
     def supports(self, problem: TeamOrienteering) -> bool:
         """Whether the method takes such a problem."""
         return bool(import_module(self.module).supports(problem))
+
+
+def _require_problem(problem: object) -> None:
+    if not isinstance(problem, TeamOrienteering):
+        raise InputError(
+            "is no TeamOrienteering problem; an instance makes one, instance.problem()",
+            field="problem",
+            value=problem,
+        )
 
 
 METHODS: Mapping[str, Method] = MappingProxyType(
@@ -96,7 +107,7 @@ def choose(problem: TeamOrienteering) -> str:
 def solve(
     problem: TeamOrienteering,
     method: str = "auto",
-    limits: Limits | None = None,
+    limits: Limits | float | None = None,
     *,
     warm_start: Plan | None = None,
     routes: Sequence[Route] = (),
@@ -111,7 +122,7 @@ def solve(
     method
         A name in `METHODS`, or ``auto`` for what `choose` says; the result names it.
     limits
-        When to stop; None without any limit.
+        Seconds, or limits; None goes on until the plan is proved.
     warm_start
         A plan to start from; one that the judge rejects is left aside.
     routes
@@ -122,8 +133,9 @@ def solve(
     Raises
     ------
     InputError
-        If there is no such method, or it does not take such a problem.
+        If there is no such method, it does not take such a problem, or that is none.
     """
+    _require_problem(problem)
     name = choose(problem) if method == "auto" else method
     if name not in METHODS:
         raise InputError(

@@ -5,6 +5,7 @@ import math
 import subprocess
 import sys
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -278,8 +279,9 @@ def test_units_do_not_matter(problem: TeamOrienteering, time: float, data: float
         problem.travel * time, problem.service * time, problem.profit * data,
         problem.budgets * time,
     )  # fmt: skip
-    for name in ("branch-price", "circuit", "compact", "enumeration", "flow"):
-        require_truth(scaled, METHODS[name](scaled))
+    for method in METHODS.values():
+        if method.supports(scaled):
+            require_truth(scaled, method(scaled))
 
 
 def test_auto_says_what_it_chose() -> None:
@@ -292,6 +294,17 @@ def test_auto_says_what_it_chose() -> None:
 def test_an_unknown_method_is_refused() -> None:
     with pytest.raises(InputError, match=r"method: 'magic': no such method; choose auto"):
         solve(BANK["line"], "magic")
+
+
+def test_what_is_no_problem_is_refused() -> None:
+    mission: Any = "small-06.json"
+    for call in (solve, METHODS["flow"]):
+        with pytest.raises(InputError, match=r"instance\.problem\(\)"):
+            call(mission)
+
+
+def test_limits_may_be_seconds() -> None:
+    assert solve(BANK["line"], "circuit", 60).status is Status.OPTIMAL
 
 
 def test_importing_the_methods_is_light() -> None:
