@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import re
+from numbers import Integral
 from typing import Annotated
 
 import numpy as np
@@ -432,7 +433,7 @@ class Instance:
         """The fleet size that is asked for, or that of the instance, if either makes sense."""
         stated = self.fleet_size
         size = stated if asked is None else asked
-        if size is None or not 1 <= size <= MAX_FLEET:
+        if not isinstance(size, Integral) or not 1 <= size <= MAX_FLEET:
             raise InputError(
                 f"the fleet needs a size from 1 to {MAX_FLEET}; set it or pass --fleet-size",
                 field="fleet.size",

@@ -12,7 +12,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from numbers import Integral
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -142,9 +143,12 @@ def plan_mission(
     Raises
     ------
     InputError
-        If the options contradict each other, or no fleet size is stated and none can be
-        estimated.
+        If there is no such option, the options contradict each other, or no fleet size is stated
+        and none can be estimated.
     """
+    _require_known(search=search, allocation=allocation, bound=bound)
+    _require_whole(workers, "workers", least=1)
+    _require_whole(seed, "seed", least=0)
     if samples and search != "paper":
         raise InputError("samples are for the search 'paper' only", field="search", value=search)
     if quantile is not None and not samples:
@@ -201,6 +205,21 @@ def plan_mission(
         allocation,
         search,
     )
+
+
+def _require_known(search: str, allocation: str, bound: str) -> None:
+    for field, value, names in (
+        ("search", search, get_args(Search)),
+        ("allocation", allocation, get_args(Allocation)),
+        ("bound", bound, get_args(Bounding)),
+    ):
+        if value not in names:
+            raise InputError(f"take one of {', '.join(names)}", field=field, value=value)
+
+
+def _require_whole(number: int, field: str, least: int) -> None:
+    if not isinstance(number, Integral) or number < least:
+        raise InputError(f"must be a whole number from {least} on", field=field, value=number)
 
 
 @dataclass(frozen=True, slots=True)

@@ -185,6 +185,12 @@ def test_sampled_planning_is_more_careful() -> None:
         ({"search": "paper", "samples": 10, "quantile": 0.2}, "quantile"),
         ({"search": "paper", "samples": 10**9}, "samples"),
         ({"fleet_size": 0}, "fleet.size"),
+        ({"fleet_size": 2.5}, "fleet.size: 2.5"),
+        ({"search": "papre"}, "search: 'papre': take one of fleet, paper"),
+        ({"allocation": "ring"}, "allocation: 'ring': take one of giant-route"),
+        ({"bound": "best"}, "bound: 'best': take one of none, quick, exact"),
+        ({"workers": 0}, "workers: 0: must be a whole number from 1 on"),
+        ({"seed": -1}, "seed: -1"),
     ],
 )
 def test_options_that_make_no_sense_are_refused(options: dict[str, object], field: str) -> None:
