@@ -20,8 +20,9 @@ if TYPE_CHECKING:
     from fiveroute.fleet_planning import plan, solve
     from fiveroute.fleet_runs import FleetRuns
     from fiveroute.fleet_sailing import simulate
-    from fiveroute.instance import Instance
+    from fiveroute.instance import Fleet, Instance, Node, Point, Service
     from fiveroute.limits import Limits, Progress
+    from fiveroute.problem import TeamOrienteering
     from fiveroute.reading import read, read_plan
     from fiveroute.result import Status
 
@@ -29,13 +30,18 @@ __version__ = "0.1.0"
 
 __all__ = [
     "FiverouteError",
+    "Fleet",
     "FleetPlan",
     "FleetRuns",
     "InputError",
     "Instance",
     "Limits",
+    "Node",
+    "Point",
     "Progress",
+    "Service",
     "Status",
+    "TeamOrienteering",
     "plan",
     "read",
     "read_plan",
@@ -45,13 +51,18 @@ __all__ = [
 
 _HOMES = {
     "FiverouteError": "fiveroute.errors",
+    "Fleet": "fiveroute.instance",
     "FleetPlan": "fiveroute.fleet_plan",
     "FleetRuns": "fiveroute.fleet_runs",
     "InputError": "fiveroute.errors",
     "Instance": "fiveroute.instance",
     "Limits": "fiveroute.limits",
+    "Node": "fiveroute.instance",
+    "Point": "fiveroute.instance",
     "Progress": "fiveroute.limits",
+    "Service": "fiveroute.instance",
     "Status": "fiveroute.result",
+    "TeamOrienteering": "fiveroute.problem",
     "plan": "fiveroute.fleet_planning",
     "read": "fiveroute.reading",
     "read_plan": "fiveroute.reading",
@@ -71,4 +82,4 @@ if not TYPE_CHECKING:  # a type checker knows the names above, and no others
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *_HOMES})
+    return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})

@@ -14,7 +14,7 @@ vehicle that sails them, and the routes to set out with. `simulate` sails it aga
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
@@ -84,6 +84,9 @@ def prepare(
     from fiveroute.sea.theatre import Theatre
     from fiveroute.tiers.preplanning import fleet_size_of
 
+    if actuation not in get_args(Actuation):
+        known = ", ".join(get_args(Actuation))
+        raise InputError(f"take one of {known}", field="actuation", value=actuation)
     clock = (limits or Limits()).start()
     voyage = sail(
         instance,
@@ -186,6 +189,11 @@ def simulate(
         Told how many runs are done.
     folder
         Folder that the name of the instance's file of currents is relative to.
+
+    Raises
+    ------
+    InputError
+        If an option makes no sense, or the plan was made for other nodes.
     """
     from fiveroute.sea.campaign import Campaign, sail_campaign
     from fiveroute.sea.channel import PRESETS
@@ -194,6 +202,12 @@ def simulate(
         raise InputError("must be at least 1", field="runs", value=runs)
     if channel not in PRESETS:
         raise InputError(f"is none of {', '.join(PRESETS)}", field="channel", value=channel)
+    if plan is not None and not _are_of_one_mission(instance, plan.instance):
+        raise InputError(
+            "was made for other nodes; plan this mission, or leave the plan out",
+            field="plan",
+            value=plan.instance.name,
+        )
     clock = Limits.of(limits).start()
     pier = prepare(
         instance,
@@ -224,3 +238,10 @@ def simulate(
         progress=progress,
     )
     return FleetRuns(pier, result, seed)
+
+
+def _are_of_one_mission(one: Instance, other: Instance) -> bool:
+    """Whether the stops are the same; fleet, ocean and luck may differ."""
+    return [node.id for node in one.nodes] == [node.id for node in other.nodes] and np.array_equal(
+        one.points, other.points
+    )

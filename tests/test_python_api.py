@@ -25,6 +25,7 @@ def sea() -> fr.Instance:
 
 def test_every_name_can_be_had() -> None:
     assert set(fr.__all__) <= set(dir(fr))
+    assert [name for name in dir(fr) if not name.startswith("__")] == sorted(fr.__all__)
     for name in fr.__all__:
         assert getattr(fr, name) is not None
     with pytest.raises(AttributeError, match="nonsense"):
@@ -65,6 +66,33 @@ def test_what_is_no_mission_is_refused(sea: fr.Instance) -> None:
             call(path)
     with pytest.raises(fr.InputError, match="runs: 0: must be at least 1"):
         fr.simulate(sea, runs=0)
+    car: Any = "car"
+    with pytest.raises(fr.InputError, match="actuation: 'car': take one of abstraction, vehicle"):
+        fr.simulate(sea, runs=1, actuation=car)
+
+
+def test_a_plan_for_other_nodes_is_not_sailed(sea: fr.Instance) -> None:
+    """They have the same ids, so that the wrong plan would look like a bad one."""
+    other = generate("uniform", nodes=8, seed=3)
+    with pytest.raises(fr.InputError, match="plan: 'uniform-8-2': was made for other nodes"):
+        fr.simulate(other, fr.plan(sea), runs=1)
+
+
+def test_an_instance_is_made_from_arrays() -> None:
+    nodes = tuple(
+        fr.Node(id=f"N{k}", x=x, y=y, data=1.0)
+        for k, (x, y) in enumerate([(900.0, 100.0), (1500.0, -200.0), (60_000.0, 0.0)], start=1)
+    )
+    sea = fr.Instance(
+        name="mine",
+        nodes=nodes,
+        start=fr.Point(x=0.0, y=0.0),
+        destination=fr.Point(x=2000.0, y=0.0),
+        fleet=fr.Fleet(size=1, speed=1.5, endurance=3600.0),
+        service=fr.Service(delay=60.0),
+    )
+    assert fr.solve(sea).routes == [["N1", "N2"]]
+    assert isinstance(sea.problem(), fr.TeamOrienteering)
 
 
 def test_a_plan_made_in_haste_says_what_its_routes_take(tmp_path: Path) -> None:
