@@ -11,6 +11,8 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 from pathlib import Path
 
+from fiveroute.words import printable
+
 __all__ = ["FiverouteError", "InputError", "MissingExtraError", "nearest"]
 
 _NAMES_SHOWN = 20
@@ -62,7 +64,7 @@ class InputError(FiverouteError):
         shown = [] if self.value is None else [f"{_shorten(self.value)}:"]
         head = [f"{', '.join(where)}:"] if where else []
         sentence = " ".join([*head, *shown, _cut(self.rule, 700)])
-        return "".join(sign if sign.isprintable() else " " for sign in sentence)
+        return printable(sentence)
 
 
 class MissingExtraError(FiverouteError):

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from fiveroute.fleet_plan import FleetPlan
 from fiveroute.routes import Plan
 from fiveroute.sea.run_result import RunResult, SimulationResult
+from fiveroute.words import printable
 
 if TYPE_CHECKING:
     from fiveroute.sea.theatre import Theatre
@@ -205,8 +206,8 @@ class FleetRuns:
         return "\n".join([self._headline(), *(f"{name:<16}{text}" for name, text in self._told())])
 
     def _headline(self) -> str:
-        name, count, result = self.plan.instance.name, len(self.runs), self.result
-        return f"{name}: {count} runs of {result.fleet_size} AUVs, {result.planner}"
+        name, result = printable(self.plan.instance.name), self.result
+        return f"{name}: {len(self.runs)} runs of {result.fleet_size} AUVs, {result.planner}"
 
     def _told(self) -> list[tuple[str, str]]:
         result, rates = self.result, 100.0 * self.completions

@@ -1,8 +1,8 @@
-"""Numbers as people read them."""
+"""Numbers and names as people read them."""
 
 from __future__ import annotations
 
-__all__ = ["ENDLESS", "clock", "counted"]
+__all__ = ["ENDLESS", "clock", "counted", "printable"]
 
 ENDLESS = 1e6
 """A gap as only a plan has that collects nothing, or as good as nothing."""
@@ -19,3 +19,8 @@ def clock(seconds: float) -> str:
 def counted(number: int, noun: str) -> str:
     """How many there are of something: ``1 node``, ``2 nodes``."""
     return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def printable(text: str) -> str:
+    """A text on one line, with spaces for whatever a terminal would obey rather than show."""
+    return "".join(sign if sign.isprintable() else " " for sign in text)

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import os
 import sys
-from contextlib import suppress
 from importlib import import_module
 
 import click
 
 import fiveroute
-from fiveroute.cli.notes import note
+from fiveroute.cli.notes import aside, hush, note
 from fiveroute.errors import FiverouteError, nearest
 
 __all__ = ["main"]
@@ -77,22 +77,24 @@ def main(arguments: list[str] | None = None) -> None:
     0 done; 1 done and the answer is no; 2 wrong input or call, with one line on standard
     error; 3 stopped by a limit with nothing found; 130 interrupted.
     """
+    _fill_closed_streams()
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # an id may hold what a terminal cannot show
             stream.reconfigure(errors="backslashreplace")
     try:
         code = _fiveroute.main(arguments, prog_name="fiveroute", standalone_mode=False)
-        if sys.stdout is not None:
-            sys.stdout.flush()
+        sys.stdout.flush()
     except OSError as error:
-        _hush()
-        code = _complain(f"{error.strerror or error}; check the disk and the terminal", 2)
+        hush(sys.stdout)
+        closed = error.errno == errno.EBADF
+        told = "standard output is closed" if closed else error.strerror or error
+        code = _complain(f"{told}; check the disk and the terminal", 2)
     except MemoryError:
         code = _complain("the memory is too small for this; make the mission smaller", 2)
     except FiverouteError as error:
         code = _complain(str(error), 2)
     except click.exceptions.NoArgsIsHelpError as error:
-        click.echo(error.ctx.get_help() if error.ctx else str(error), err=True)
+        aside(error.ctx.get_help() if error.ctx else str(error))
         code = 2
     except click.ClickException as error:
         code = _complain(" ".join(error.format_message().split()), 2)
@@ -101,10 +103,19 @@ def main(arguments: list[str] | None = None) -> None:
     sys.exit(code if isinstance(code, int) else 0)
 
 
-def _hush() -> None:
-    """Send what standard output still holds nowhere: it cannot be written."""
-    with suppress(OSError, ValueError, AttributeError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+def _fill_closed_streams() -> None:
+    """Have an answer that nobody can read end in an error.
+
+    A closed standard stream also leaves its number to the next file that is opened, into which
+    libraries would then print.
+    """
+    for number, mode in enumerate((os.O_RDONLY, os.O_RDONLY, os.O_WRONLY)):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, mode)
+    if sys.stdout is None:
+        sys.stdout = open(1, "w", closefd=False)  # noqa: SIM115
 
 
 def _complain(sentence: str, code: int) -> int:

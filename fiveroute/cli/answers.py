@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from fiveroute.cli.notes import tell
 from fiveroute.instance import Instance
 from fiveroute.result import GiantRouteResult, Status
 from fiveroute.routes import Route
-from fiveroute.words import ENDLESS, clock
+from fiveroute.words import ENDLESS, clock, printable
 
 if TYPE_CHECKING:
     from fiveroute.fleet_plan import FleetPlan
@@ -138,9 +139,9 @@ def print_path(answer: Mapping[str, Any]) -> None:
     """Print a path for people."""
     where = f"{answer['instance']}: {answer['from']} to {answer['to']}"
     if answer["duration"] is None:
-        click.echo(f"{where} {answer['status']}")
+        tell(f"{where} {answer['status']}")
         return
-    click.echo(where)
+    tell(where)
     figures = [
         ("duration", f"{clock(answer['duration'])} ({answer['duration']:.1f} s)"),
         ("waypoints", str(len(answer["waypoints"]))),
@@ -152,7 +153,7 @@ def print_path(answer: Mapping[str, Any]) -> None:
     if answer["min_clearance"] is not None:
         figures.append(("clearance", f"{answer['min_clearance']:.1f} m"))
     for name, text in figures:
-        click.echo(f"{name:<16}{text}")
+        tell(f"{name:<16}{text}")
 
 
 def _radius(curvature: float) -> str:
@@ -237,29 +238,29 @@ def print_routes(answer: Mapping[str, Any]) -> None:
     ]
     print_table(answer["instance"], ("", "nodes", "time", "route"), rows, words=(0, 3))
     for name, text in _figures(answer):
-        click.echo(f"{name:<16}{text}")
+        tell(f"{name:<16}{text}")
 
 
 def print_giant_route(answer: Mapping[str, Any]) -> None:
     """Print a giant route for people."""
-    click.echo(" ".join(answer["order"]))
-    click.echo(f"{'duration':<16}{answer['duration']:.10g} ({clock(answer['duration'])})")
+    tell(" ".join(answer["order"]))
+    tell(f"{'duration':<16}{answer['duration']:.10g} ({clock(answer['duration'])})")
     if answer["bound"] is not None:
-        click.echo(f"{'proven bound':<16}{answer['bound']:.10g}")
-    click.echo(f"{'optimality gap':<16}{gap_text(answer['gap'])}")
+        tell(f"{'proven bound':<16}{answer['bound']:.10g}")
+    tell(f"{'optimality gap':<16}{gap_text(answer['gap'])}")
 
 
 def print_verdict(answer: Mapping[str, Any]) -> None:
     """Print the judge's verdict for people."""
     verdict = "feasible" if answer["feasible"] else "NOT feasible"
     rate = 100 * answer["completion_rate"]
-    click.echo(f"{answer['instance']}: {verdict}, {rate:.1f} % of all data collected")
+    tell(f"{answer['instance']}: {verdict}, {rate:.1f} % of all data collected")
     for violation in answer["violations"]:
         auv, node = violation["auv"], violation["node"]
         places = [f"AUV {auv + 1}"] if auv is not None else []
         places += [f"node {node}"] if node is not None else []
         what = ", ".join([violation["kind"].replace("_", " "), *places])
-        click.echo(f"  {what}: {violation['amount']:.6g}")
+        tell(f"  {what}: {violation['amount']:.6g}")
 
 
 def _figures(answer: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
@@ -281,13 +282,14 @@ def print_table(
     from rich.console import Console
     from rich.table import Table
 
-    table = Table(title=title, title_justify="left", box=None, pad_edge=False)
+    table = Table(title=printable(title), title_justify="left", box=None, pad_edge=False)
     for column, name in enumerate(header):
         table.add_column(name, justify="left" if column in words else "right", overflow="fold")
     for row in rows:
-        table.add_row(*map(str, row))
+        table.add_row(*(printable(str(cell)) for cell in row))
     width = None if sys.stdout.isatty() else _WIDE
-    Console(soft_wrap=False, highlight=False, width=width).print(table)
+    console = Console(soft_wrap=False, highlight=False, markup=False, emoji=False, width=width)
+    console.print(table)
 
 
 def gap_text(gap: float | None) -> str:

@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from fiveroute.cli import options
+from fiveroute.cli.notes import aside
 from fiveroute.words import clock, counted
 
 __all__ = ["command"]
@@ -101,8 +102,7 @@ def command(
     for vehicle in mission.vehicles:
         nodes = sum(point.kind == "node" for point in vehicle.waypoints)
         home = clock(vehicle.waypoints[-1].arrival)
-        click.echo(
+        aside(
             f"{vehicle.name}: {counted(nodes, 'node')}, "
-            f"{counted(len(vehicle.waypoints), 'waypoint')}, home after {home}",
-            err=True,
+            f"{counted(len(vehicle.waypoints), 'waypoint')}, home after {home}"
         )

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-import click
-
 from fiveroute.cli.answers import gap_text
+from fiveroute.cli.notes import tell
 from fiveroute.experiments.gap_row import GapRow
 from fiveroute.experiments.gap_table import GapSummary
 from fiveroute.result import Status
@@ -21,9 +20,9 @@ def print_gaps(rows: Sequence[GapRow], summary: GapSummary) -> None:
         cells = [[text(row) or "-" for _, text in columns] for row in rows]
         _print_table([name for name, _ in columns], cells)
     if len(summary.solvers) > 1:
-        click.echo()
+        tell("")
         _print_solvers(summary)
-    click.echo(_in_words(summary))
+    tell(_in_words(summary))
 
 
 def _in_words(summary: GapSummary) -> str:
@@ -104,7 +103,7 @@ def _print_table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
             cell.rjust(width) if place else cell.ljust(width)
             for place, (cell, width) in enumerate(zip(row, widths, strict=True))
         )
-        click.echo("  ".join([first, *figures]))
+        tell("  ".join([first, *figures]))
 
 
 def _number(value: float | None) -> str:

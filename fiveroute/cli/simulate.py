@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from fiveroute.cli import options
-from fiveroute.cli.notes import note
+from fiveroute.cli.notes import note, tell
 
 if TYPE_CHECKING:
     from fiveroute.experiments.registry import Registry
@@ -153,7 +153,8 @@ def command(
     if as_json:
         answers.print_json(answers.simulation_answer(runs))
     else:
-        click.echo(str(runs))
+        for line in str(runs).splitlines():
+            tell(line)
     no_plan_exists = is_proved_infeasible(runs.pier.theatre.problem)
     if no_plan_exists:
         note("the destination is out of reach in time; AUVs come home late")

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import click
-
 from fiveroute.cli.answers import print_table
-from fiveroute.cli.notes import note
+from fiveroute.cli.notes import note, tell
 
 if TYPE_CHECKING:
     from fiveroute.decide.sweep import Sweep
@@ -38,7 +36,7 @@ def print_sweep(sweep: Sweep) -> None:
     if sweep.marked is not None:
         unit = f" {sweep.unit}" if sweep.unit else ""
         marked = shown(sweep.quantity, sweep.marked)
-        click.echo(f"{heading(sweep.quantity)} {marked}{unit}: {sweep.because}")
+        tell(f"{heading(sweep.quantity)} {marked}{unit}: {sweep.because}")
 
 
 def note_left_out(sweep: Sweep) -> None:

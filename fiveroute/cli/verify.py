@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from fiveroute.cli import options
+from fiveroute.cli.notes import tell
 
 if TYPE_CHECKING:
     from typing import NoReturn
@@ -91,9 +92,9 @@ def _confirm(
     if as_json:
         answers.print_json(answer)
     elif answer["confirmed"]:
-        click.echo(f"{mission.name}: no plan collects more than {answer['bound']:.10g}")
+        tell(f"{mission.name}: no plan collects more than {answer['bound']:.10g}")
     elif answer["excess"] > 0.0:
-        click.echo(f"{mission.name}: refuted, a route is worth {answer['excess']:.6g} too much")
+        tell(f"{mission.name}: refuted, a route is worth {answer['excess']:.6g} too much")
     else:
-        click.echo(f"{mission.name}: not confirmed in the time given")
+        tell(f"{mission.name}: not confirmed in the time given")
     ctx.exit(0 if answer["confirmed"] else 1 if answer["excess"] > 0.0 else 3)

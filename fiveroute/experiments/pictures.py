@@ -22,6 +22,7 @@ from fiveroute.instance import Instance
 from fiveroute.paths.legs import Waters
 from fiveroute.routes import Route
 from fiveroute.tiers.pathing import PlannedPath
+from fiveroute.words import printable
 
 __all__ = [
     "Panel",
@@ -86,7 +87,9 @@ def path_map(waters: Waters, planned: PlannedPath, title: str) -> Figure:
         axis.plot(*track[0], "^", color="black", markersize=9, zorder=5)
         axis.plot(*track[-1], "*", color="black", markersize=12, zorder=5)
     gap = "" if planned.gap is None else f", gap {100 * planned.gap:.2f} %"
-    axis.set(title=f"{title}{gap}", xlabel="x in km", ylabel="y in km", aspect="equal")
+    axis.set(title=printable(f"{title}{gap}"), xlabel="x in km", ylabel="y in km")
+    axis.set_aspect("equal")
+    axis.title.set_parse_math(False)  # names may hold dollars
     legend = axis.legend(loc="upper right")
     legend.get_frame().set_facecolor("#bbbbbb")
     return figure
@@ -102,7 +105,8 @@ def _draw_current(figure: Figure, axis: Axes, waters: Waters) -> None:
     rows, columns = (slice(None, None, max(size // _ARROWS, 1)) for size in u.shape)
     arrows = u[rows, columns], v[rows, columns]
     axis.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
-    axis.quiver(x[columns], y[rows], *arrows, color="white", alpha=0.6, width=2e-3, zorder=1)
+    if np.any(arrows):  # in still water there is no scale for them
+        axis.quiver(x[columns], y[rows], *arrows, color="white", alpha=0.6, width=2e-3, zorder=1)
 
 
 def _draw_barriers(axis: Axes, waters: Waters) -> None:

@@ -13,10 +13,11 @@ from matplotlib.figure import Figure
 
 from fiveroute.errors import InputError
 from fiveroute.plots.mission import draw_fleet, plot_mission, plot_plan, run_legs
-from fiveroute.plots.saving import save, save_figure
+from fiveroute.plots.saving import boxes_for_unknown_signs, save, save_figure
 from fiveroute.plots.sea import plot_sea
 from fiveroute.view.event_log import RunLog
 from fiveroute.view.scene import Scene
+from fiveroute.words import printable
 
 __all__ = ["write_film", "write_picture"]
 
@@ -70,7 +71,7 @@ def write_film(
     end = max((leg.done for fleet in legs for own in fleet for leg in own), default=0.0)
     for scene, ax in zip(scenes, axes, strict=True):
         plot_sea(scene, ax, shades=_SHADES)
-        ax.set_title(scene.title, alpha=0.0)  # keeps its place free
+        ax.set_title(printable(scene.title), alpha=0.0)  # keeps its place free
     _freeze(figure)
     still = {ax: set(ax.get_children()) for ax in axes}
 
@@ -80,18 +81,20 @@ def write_film(
                 artist.remove()
             sailed = None if log is None else log.tracks
             draw_fleet(ax, scene, fleet, end * frame / max(frames - 1, 1), sailed)
-            ax.set_title(f"{scene.title}: {ax.get_title()}", alpha=1.0, y=1.0)
+            ax.set_title(f"{printable(scene.title)}: {ax.get_title()}", alpha=1.0, y=1.0)
         return []
 
     film = FuncAnimation(figure, draw, frames=frames)
     writer = PillowWriter(fps=_FRAMES_A_SECOND)
-    save(path, lambda draft: film.save(draft, writer=writer, dpi=_FILM_DPI))
+    with boxes_for_unknown_signs():
+        save(path, lambda draft: film.save(draft, writer=writer, dpi=_FILM_DPI))
 
 
 def _freeze(figure: Figure) -> None:
     """Put what has been drawn so far into one image, so that frames need not draw it again."""
     stream = io.BytesIO()
-    figure.savefig(stream, format="rgba", dpi=_FILM_DPI)
+    with boxes_for_unknown_signs():
+        figure.savefig(stream, format="rgba", dpi=_FILM_DPI)
     figure.set_layout_engine("none")
     width = int(figure.get_size_inches()[0] * _FILM_DPI)
     image = np.frombuffer(stream.getvalue(), dtype=np.uint8).reshape(-1, width, 4)

@@ -32,7 +32,7 @@ def plot_gap(results: Mapping[str, tuple[float, float | None]], ax: Axes | None 
             ax.plot([bound, bound], [place - 0.36, place + 0.36], color="black", linewidth=2.0)
         text = f"{objective:.4g}{gap_text(objective, bound)} "
         ax.text(objective, place, text, ha="right", va="center", color="white")
-    ax.set_yticks(range(len(results)), list(results))
+    ax.set_yticks(range(len(results)), list(results), parse_math=False)
     ax.invert_yaxis()
     ax.set(xlabel="data collected; the black mark is a proven upper bound", xlim=(0.0, None))
     return ax

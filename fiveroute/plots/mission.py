@@ -16,6 +16,7 @@ from fiveroute.plots.sea import plot_sea, unit_of
 from fiveroute.view.event_log import RunLog
 from fiveroute.view.scene import Scene
 from fiveroute.view.timed_legs import Leg, sailed_legs, track_of
+from fiveroute.words import printable
 
 __all__ = ["draw_fleet", "plot_mission", "plot_plan", "run_legs"]
 
@@ -43,7 +44,7 @@ def plot_plan(scene: Scene, ax: Axes | None = None, *, currents: bool = True) ->
     draw_fleet(ax, scene, scene.legs)
     plan = scene.plan
     gap = gap_text(plan.objective, plan.bound)
-    ax.set_title(f"{scene.title}: {_share(scene, plan.objective)}{gap}")
+    ax.set_title(f"{printable(scene.title)}: {_share(scene, plan.objective)}{gap}")
     return ax
 
 
@@ -73,7 +74,7 @@ def plot_mission(
     ax = plot_sea(scene, ax, t=0.0 if math.isinf(t) else t, currents=currents)
     draw_fleet(ax, scene, run_legs(scene, run), t, None if run is None else run.tracks)
     name = "plan" if run is None else f"run {run.run}"
-    ax.set_title(f"{scene.title}, {name}: {ax.get_title()}")
+    ax.set_title(f"{printable(scene.title)}, {name}: {ax.get_title()}")
     return ax
 
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -11,7 +13,7 @@ from matplotlib.figure import Figure
 from fiveroute.errors import InputError
 from fiveroute.whole_files import written_whole
 
-__all__ = ["save", "save_figure"]
+__all__ = ["boxes_for_unknown_signs", "save", "save_figure"]
 
 
 def save(path: Path, write: Callable[[Path], object]) -> None:
@@ -29,8 +31,17 @@ def save(path: Path, write: Callable[[Path], object]) -> None:
         raise InputError(f"cannot be written ({error.strerror})", file=path) from None
 
 
+@contextmanager
+def boxes_for_unknown_signs() -> Iterator[None]:
+    """Draw names without a warning for every sign that the font does not have."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", r"Glyph \d+ .* missing from font")
+        yield
+
+
 def save_figure(figure: Figure, path: Path) -> None:
     """Write a figure; the suffix chooses the format."""
     drawn = io.BytesIO()  # a disk that is full while matplotlib writes makes it fail otherwise
-    figure.savefig(drawn, format=path.suffix[1:], dpi=150)
+    with boxes_for_unknown_signs():
+        figure.savefig(drawn, format=path.suffix[1:], dpi=150)
     save(path, lambda draft: draft.write_bytes(drawn.getvalue()))

@@ -70,7 +70,8 @@ def plot_currents(
     every = max(max(u.shape) // _ARROWS, 1)
     some = slice(every // 2, None, every)
     arrows = u[some, some], v[some, some]
-    ax.quiver(x[some], y[some], *arrows, color=_ARROW, alpha=0.5, width=1.6e-3, zorder=1)
+    if np.any(arrows):  # in still water there is no scale for them
+        ax.quiver(x[some], y[some], *arrows, color=_ARROW, alpha=0.5, width=1.6e-3, zorder=1)
     if chart.mask is not None:
         _draw_mask(ax, chart.mask)
     ax.set(xlabel="x in km", ylabel="y in km", aspect="equal")
@@ -133,4 +134,5 @@ def plot_sea(
     name = " in km" if unit > 1.0 else ""
     ax.set(xlim=(west, east), ylim=(south, north), aspect="equal")
     ax.set(xlabel=f"x{name}", ylabel=f"y{name}")
+    ax.title.set_parse_math(False)  # the name of a mission may hold dollars
     return ax

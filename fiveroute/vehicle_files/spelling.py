@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from xml.etree import ElementTree
 
 from fiveroute.errors import InputError
+from fiveroute.words import printable
 
 __all__ = [
     "child",
@@ -28,7 +29,7 @@ Element = ElementTree.Element
 
 def label(text: str, longest: int = 60) -> str:
     """One short line of printable text."""
-    line = "".join(sign if sign.isprintable() else " " for sign in text)
+    line = printable(text)
     return line if len(line) <= longest else f"{line[: longest - 3]}..."
 
 

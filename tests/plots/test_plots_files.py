@@ -1,4 +1,6 @@
+from dataclasses import replace
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 from PIL import Image
@@ -26,3 +28,11 @@ def test_two_scenes_are_side_by_side(pond: Scene, bay: Scene, tmp_path: Path) ->
 def test_folder_that_cannot_be_written_to(pond: Scene, tmp_path: Path) -> None:
     with pytest.raises(InputError, match="cannot be written"):
         write_picture([pond], tmp_path / "missing" / "plan.png")
+
+
+def test_titles_are_no_mathematics(pond: Scene, tmp_path: Path) -> None:
+    scene = replace(pond, title="\u5e73 $\\frac{$ \x1b")
+    write_picture([scene], tmp_path / "plan.svg")
+    ElementTree.parse(tmp_path / "plan.svg")
+    write_picture([scene], tmp_path / "run.png", run=3)
+    write_film([scene], tmp_path / "film.gif", frames=2)

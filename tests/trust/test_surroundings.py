@@ -119,16 +119,37 @@ def test_a_reader_that_has_read_enough(run: Run) -> None:
     assert done.stderr == ""
 
 
-def test_nobody_listens(run: Run, tmp_path: Path) -> None:
-    """Standard input, output and error all closed."""
+def without(*streams: int) -> Callable[[], None]:
+    """Standard streams closed before the process begins."""
 
     def close() -> None:
-        for stream in range(3):
+        for stream in streams:
             os.close(stream)
 
-    done = run(*GENERATE, "sea.json", preexec_fn=close)
+    return close
+
+
+def test_nobody_listens(run: Run, tmp_path: Path) -> None:
+    """Standard input, output and error all closed."""
+    done = run(*GENERATE, "sea.json", preexec_fn=without(0, 1, 2))
     assert done.returncode == 0
     assert json.loads((tmp_path / "sea.json").read_text())["name"]
+
+
+def test_an_answer_that_nobody_hears(run: Run) -> None:
+    assert "standard output is closed" in told(run("--version", preexec_fn=without(1)))
+    assert run("--version", preexec_fn=without(0, 1, 2)).returncode == 2
+
+
+def test_notes_that_nobody_hears(run: Run, tmp_path: Path) -> None:
+    """A full standard error costs nothing but what would be said there."""
+    (tmp_path / "chart.csv").write_text("id,x,y\na,1,2\n")
+    chart = "convert chart.csv --to native --start 0,0 --destination 9,9 --speed 1 --endurance 99"
+    with Path("/dev/full").open("w") as full:
+        assert run(*chart.split(), "--output", "sea.json", stderr=full).returncode == 0
+        assert run(*GENERATE, "none/sea.json", stderr=full).returncode == 2
+        assert run(stderr=full).returncode == 2
+    assert (tmp_path / "sea.json").is_file()
 
 
 def test_an_output_that_is_a_link_to_itself(run: Run, tmp_path: Path) -> None:
