@@ -2,17 +2,20 @@
 
     python benchmarks/kill.py COMMAND|all [--count N] [--seed N]
 
-A command is carried out twice, which gives its time, when it begins to write, and its files. Then
-it is started again and again over them, in every other run with the files taken away before, and
-killed (SIGKILL) at a random time: half of the times at any, half of them as soon as it has begun
-to write and as long as it writes. After each kill every file must be whole, or missing where it was
-missing; only hidden drafts may lie beside them.
+A command is carried out twice, which gives its time, its files, and its moments: each time that it
+names a draft, or opens, renames or removes a file in its folder. Then it is started again and again
+over them, in every other run with the files taken away before. One run in four is killed (SIGKILL)
+at any time. The others have a timer set at one of the moments that runs out before the next, and
+ends the process in the midst of a call (SIGALRM, of which nobody takes notice): the milliseconds in
+which files are written get most of the kills, however long a command takes. After each kill every
+file must be whole, or missing where it was missing; only hidden drafts may lie beside them.
 """
 
 from __future__ import annotations
 
 import argparse
 import csv
+import importlib
 import io
 import json
 import os
@@ -25,13 +28,17 @@ import tempfile
 import time
 import zipfile
 from contextlib import suppress
+from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import xarray
 
+from fiveroute import whole_files
 from fiveroute.cli import main as fiveroute
 from fiveroute.formats import read_instance, read_plan, write_instance
 from fiveroute.generate import generate
+from fiveroute.studio.session import Session
 
 COMMANDS = {
     "generate": "generate uniform --nodes 5000 --output new.json",
@@ -51,16 +58,22 @@ COMMANDS = {
     "parquet": "simulate bay.json bay.plan.json --runs 3 --workers 1 --output new.parquet",
     "tracks": "simulate bay.json bay.plan.json --runs 2 --workers 1 --actuation vehicle "
     "--events new.jsonl --tracks new.nc",
+    "studio": "studio bay.plan.json",
     "gap": "gap bay.json --time-limit 0.2 --exact-time-limit 0.2 --workers 1 --keep kept "
     "--output new.csv",
     "decide": "decide fleet-size bay.json --sizes 1,2 --time-limit 1 --output new.csv "
     "--picture new.pdf",
+    "speed": "decide speed bay.json --speeds 1,2 --bound none --output new.md --picture new.png",
     "experiment": "experiment preplanning --scenarios 1 --output new",
     "stochastic": "experiment stochastic --scenarios 1 --runs 2 --workers 1 --output new",
     "coordination": "experiment coordination --scenarios 0 --runs 1 --output new",
 }
 
 _POLL = 0.002  # seconds between two looks
+_CHANGES = {
+    *("open", "os.rename", "os.remove", "os.mkdir", "os.rmdir", "os.chmod", "shutil.rmtree"),
+}
+_REPORT = "report"  # beside the folder of a command: its moments, and the modules that it took
 
 
 def is_whole(path: Path) -> bool:
@@ -94,8 +107,11 @@ def is_whole(path: Path) -> bool:
     return True
 
 
-def started(arguments: list[str], folder: Path) -> int:
-    """The process of a command, forked so that nothing has to be imported again."""
+def started(arguments: list[str], folder: Path, aim: tuple[int, float] | None = None) -> int:
+    """The process of a command, forked so that nothing has to be imported again.
+
+    With an aim it ends itself so many seconds after the moment of that number.
+    """
     child = os.fork()
     if child:
         return child
@@ -103,12 +119,50 @@ def started(arguments: list[str], folder: Path) -> int:
     nowhere = os.open(os.devnull, os.O_RDWR)
     for stream in range(3):
         os.dup2(nowhere, stream)
+    moments = watched(folder, aim)
     try:
-        fiveroute(arguments)
+        if arguments[0] == "studio":
+            Session.opened(Path(arguments[1])).save("new.json", "new.plan.json", overwrite=True)
+        else:
+            fiveroute(arguments)
+        os._exit(0)
     except SystemExit as end:
+        report = {"moments": moments, "modules": sorted(sys.modules)}
+        (folder.parent / _REPORT).write_text(json.dumps(report))
         os._exit(end.code if isinstance(end.code, int) else 0)
     finally:
         os._exit(99)
+
+
+def watched(folder: Path, aim: tuple[int, float] | None) -> list[float]:
+    """When this process changes something in a folder; a list that grows."""
+    moments = list[float]()
+
+    def note() -> None:
+        moments.append(time.monotonic())
+        if aim is not None and len(moments) == aim[0] + 1:
+            signal.setitimer(signal.ITIMER_REAL, max(aim[1], 1e-6))
+
+    def hear(event: str, arguments: tuple[Any, ...]) -> None:
+        if event not in _CHANGES or not isinstance(arguments[0], str | os.PathLike):
+            return
+        place = Path(arguments[0]).absolute()
+        is_read = event == "open" and arguments[2] & os.O_ACCMODE == os.O_RDONLY
+        if place.is_relative_to(here) and (place.name.startswith(".") or not is_read):
+            note()
+
+    class Secrets:
+        """Drafts are named with it, before a library makes the file that nobody hears of."""
+
+        @staticmethod
+        def token_hex(size: int) -> str:
+            note()
+            return os.urandom(size).hex()
+
+    here = folder.resolve()
+    whole_files.secrets = Secrets  # type: ignore[assignment]
+    sys.addaudithook(hear)
+    return moments
 
 
 def has_ended(child: int) -> bool:
@@ -121,22 +175,6 @@ def wait(child: int, seconds: float) -> None:
     until = time.monotonic() + seconds
     while time.monotonic() < until and not has_ended(child):
         time.sleep(min(_POLL, max(until - time.monotonic(), 0.0)))
-
-
-def wait_for_a_change(child: int, folder: Path) -> None:
-    """Wait until a process changes anything in a folder, or to its end."""
-    before = state(folder)
-    while state(folder) == before and not has_ended(child):
-        time.sleep(_POLL)
-
-
-def state(folder: Path) -> frozenset[tuple[str, int]]:
-    """What lies in a folder, and when each was changed; not all of it if some goes meanwhile."""
-    found = set()
-    with suppress(FileNotFoundError):
-        for path in folder.rglob("*"):
-            found.add((str(path), path.lstat().st_mtime_ns))
-    return frozenset(found)
 
 
 def seen(folder: Path, inputs: frozenset[str]) -> frozenset[str]:
@@ -174,36 +212,42 @@ def run(name: str, count: int, seed: int) -> int:
         shutil.copytree(folder, before)
         for _ in range(2):  # the first one may compile kernels
             begun = time.monotonic()
-            child = started(arguments, folder)
-            wait_for_a_change(child, folder)
-            first = time.monotonic()
-            _, status = os.waitpid(child, 0)
+            _, status = os.waitpid(started(arguments, folder), 0)
             assert status == 0, name
-        whole, end = seen(folder, inputs), time.monotonic()
+            end, report = time.monotonic(), json.loads((Path(place) / _REPORT).read_text())
+            for module in report["modules"]:
+                with suppress(Exception):
+                    importlib.import_module(module)
+        whole, gaps = seen(folder, inputs), spaces(report["moments"])
         shutil.copytree(folder, after)
         assert whole, name
         killed = drafts = findings = 0
         for k in range(count):
             reset(folder, before if k % 2 else after)
-            child = started(arguments, folder)
-            if rng.random() < 0.5:
+            if rng.random() < 0.25:
+                child = started(arguments, folder)
                 wait(child, rng.uniform(0.0, end - begun))
+                os.kill(child, signal.SIGKILL)
             else:
-                wait_for_a_change(child, folder)
-                wait(child, rng.uniform(0.0, end - first))
-            os.kill(child, signal.SIGKILL)
+                moment = rng.randrange(len(gaps))
+                child = started(arguments, folder, (moment, rng.uniform(0.0, gaps[moment])))
             _, status = os.waitpid(child, 0)
-            killed += status == signal.SIGKILL
+            killed += os.WIFSIGNALED(status)
             for fault in faults(folder, inputs, whole, is_over=k % 2 == 0):
                 findings += 1
                 sys.stdout.write(f"{name}: {fault}\n")
             drafts += reset(folder, before)
     sys.stdout.write(
-        f"{name}: {count} runs of {end - begun:.2f} s, {killed} killed, {drafts} of them while "
-        f"writing, {findings} findings\n"
+        f"{name}: {count} runs of {end - begun:.2f} s, {killed} killed, {drafts} drafts left, "
+        f"{len(gaps)} moments, {findings} findings\n"
     )
     sys.stdout.flush()
     return findings
+
+
+def spaces(moments: list[float]) -> list[float]:
+    """Seconds from each moment to the next, and a millisecond after the last."""
+    return [*(after - before for before, after in pairwise(moments)), 1e-3]
 
 
 def faults(
