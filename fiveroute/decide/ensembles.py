@@ -18,35 +18,25 @@ is told by the held-out members, which it has never seen.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
-from pathlib import Path
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.decide.sweep import Row, Sweep
 from fiveroute.errors import InputError
-from fiveroute.instance import Instance
 from fiveroute.limits import Limits, Progress, ProgressCallback
 from fiveroute.mission import plan_mission
-from fiveroute.ocean.currents import LambVortices, Superposition
-from fiveroute.ocean.stated import stated_current
-from fiveroute.ocean.uncertain_ocean import VortexUncertainty, draw_truth
-from fiveroute.paths.legs import track_time
 from fiveroute.paths.voyage import Voyage
 from fiveroute.problem import TeamOrienteering, completion_rate
 from fiveroute.routes import Plan
-from fiveroute.tiers.pathing import waters_of
 
 __all__ = [
     "Candidate",
     "EnsemblePlan",
     "cvar",
-    "drawn_members",
     "ensemble_sweep",
-    "filed_members",
-    "member_times",
     "plan_against_ensemble",
     "recourse_completion",
 ]
@@ -240,91 +230,3 @@ def cvar(rates: Sequence[float], alpha: float) -> float:
     """Mean of the worst share alpha of some completion rates, one of them at least."""
     worst = sorted(rates)[: max(math.ceil(alpha * len(rates) - 1e-9), 1)]
     return float(np.mean(worst))
-
-
-def member_times(voyage: Voyage, member: Superposition) -> Floats:
-    """What the planned paths of all legs take in another current, in seconds, shape (n + 2, n + 2).
-
-    A leg that cannot be sailed there is infinitely long. Without planned paths legs are straight.
-    """
-    instance = voyage.instance
-    grid, speed = waters_of(instance, member).grid, instance.fleet.speed
-    size = len(instance.nodes) + 2
-    times = np.full((size, size), np.inf)
-    np.fill_diagonal(times, 0.0)
-    for leg, track in _tracks(voyage):
-        times[leg] = track_time(grid, track, 0.0, speed)
-    return times
-
-
-def _tracks(voyage: Voyage) -> Iterable[tuple[tuple[int, int], Floats]]:
-    """Waypoints of every leg in metres."""
-    if voyage.legs is not None:
-        return voyage.legs.planned_tracks()
-    points = voyage.instance.points
-    last = len(points) - 1
-    legs = ((i, j) for i in range(last) for j in range(1, last + 1) if i != j)
-    return ((leg, points[list(leg)]) for leg in legs)
-
-
-def filed_members(instance: Instance, files: Sequence[Path], folder: Path) -> list[Superposition]:
-    """Members that files of currents hold, each in the place of the instance's own.
-
-    Parameters
-    ----------
-    instance
-        The mission.
-    files
-        CF netCDF files.
-    folder
-        Folder that names in the instance are relative to.
-    """
-    members = []
-    for file in files:
-        currents = replace(instance.ocean.currents, file=str(file.absolute()))
-        ocean = replace(instance.ocean, currents=currents)
-        members.append(stated_current(replace(instance, ocean=ocean), folder))
-    return members
-
-
-def drawn_members(
-    instance: Instance,
-    count: int,
-    uncertainty: VortexUncertainty,
-    rng: np.random.Generator,
-    folder: Path | None = None,
-) -> list[Superposition]:
-    """Truths drawn from the vortices of an instance; its other currents stay as they are.
-
-    Parameters
-    ----------
-    instance
-        The mission.
-    count
-        Number of members.
-    uncertainty
-        How far they may be from the instance's current.
-    rng
-        Random numbers.
-    folder
-        Folder that names in the instance are relative to.
-
-    Raises
-    ------
-    InputError
-        If the instance states no vortices.
-    """
-    stated = stated_current(instance, folder)
-    vortices = [part for part in stated.parts if isinstance(part, LambVortices)]
-    if not vortices:
-        raise InputError(
-            "states none to draw from; name the files of an ensemble",
-            field="ocean.currents.vortices",
-        )
-    others = tuple(part for part in stated.parts if not isinstance(part, LambVortices))
-    low, high = instance.points.min(axis=0), instance.points.max(axis=0)
-    region = (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
-    return [
-        Superposition((*others, *(draw_truth(each, uncertainty, region, rng) for each in vortices)))
-        for _ in range(count)
-    ]

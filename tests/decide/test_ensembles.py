@@ -7,17 +7,15 @@ import pytest
 
 from fiveroute.decide.ensembles import (
     cvar,
-    drawn_members,
     ensemble_sweep,
-    member_times,
     plan_against_ensemble,
     recourse_completion,
 )
+from fiveroute.decide.members import drawn_members, member_times
 from fiveroute.decide.picture import sweep_figure
 from fiveroute.errors import InputError
 from fiveroute.generate import generate
 from fiveroute.instance import Instance, Ocean, Vortex
-from fiveroute.ocean.stated import stated_current
 from fiveroute.ocean.uncertain_ocean import VortexUncertainty
 from fiveroute.paths.voyage import Voyage
 from fiveroute.routes import Plan
@@ -60,12 +58,6 @@ def test_an_auv_turns_home_in_time(mission: Instance) -> None:
     assert rate == pytest.approx(problem.collected([1]) / problem.total_profit)
 
 
-def test_the_forecast_as_a_member_takes_the_planned_times(mission: Instance) -> None:
-    still = replace(mission, ocean=Ocean())
-    times = member_times(Voyage.straight(mission), stated_current(still))
-    assert times[:-1, 1:] == pytest.approx(still.travel[:-1, 1:], rel=1e-9)
-
-
 def test_the_choice_is_the_best_of_the_training_members(mission: Instance) -> None:
     uncertainty = VortexUncertainty(displacement=1500.0, strength=0.8)
     members = drawn_members(mission, 8, uncertainty, np.random.default_rng(1))
@@ -86,9 +78,3 @@ def test_both_kinds_of_members_are_needed(mission: Instance, held_out: int) -> N
     times = [mission.travel] * 4
     with pytest.raises(InputError, match="held_out"):
         plan_against_ensemble(Voyage.straight(mission), times, held_out)
-
-
-def test_without_vortices_there_is_nothing_to_draw_from(mission: Instance) -> None:
-    still = replace(mission, ocean=Ocean())
-    with pytest.raises(InputError, match="vortices"):
-        drawn_members(still, 3, VortexUncertainty(), np.random.default_rng(0))

@@ -1,0 +1,158 @@
+"""Members of an ensemble: oceans that may be, and what planned paths take in them.
+
+A member is a file of a forecast centre's ensemble, or a truth drawn from the vortices of the
+instance. Files may have grids, times and variables of their own: each is read at the moment and
+in the metres of the mission. Where the instance does not state these, they are the first time and
+the middle of its own file, or of the first member, so that all members are of one place and time.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fiveroute.errors import InputError
+from fiveroute.instance import Currents, Instance
+from fiveroute.ocean.current_grid import Region
+from fiveroute.ocean.currents import LambVortices, Superposition
+from fiveroute.ocean.model_current import ModelCurrent
+from fiveroute.ocean.stated import stated_current
+from fiveroute.ocean.uncertain_ocean import VortexUncertainty, draw_truth
+from fiveroute.paths.legs import Waters, track_clearance, track_time
+from fiveroute.paths.voyage import Voyage
+from fiveroute.tiers.pathing import waters_of
+
+__all__ = ["drawn_members", "filed_members", "member_times"]
+
+Floats = NDArray[np.float64]
+
+_ANYWHERE = Region(-math.inf, -math.inf, math.inf, math.inf)._asdict()
+
+
+def filed_members(instance: Instance, files: Sequence[Path], folder: Path) -> list[Superposition]:
+    """Members that files of currents hold, each in the place of the instance's own.
+
+    Parameters
+    ----------
+    instance
+        The mission.
+    files
+        CF netCDF files.
+    folder
+        Folder that names in the instance are relative to.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be read as a current, or does not hold the time of the mission.
+    """
+    stated = instance.ocean.currents
+    first = files[0].absolute() if stated.file is None else folder / stated.file
+    own = _filed_part(stated_current(_with(instance, replace(stated, file=str(first)))))
+    assert own is not None
+    times, begin = own.coverage().time, stated.begin
+    if begin is None and times is not None:
+        begin = str(times[0].astype("datetime64[s]"))
+    placed = replace(instance, crs=instance.crs or own.plane.proj)
+    return [
+        stated_current(_with(placed, replace(stated, file=str(file.absolute()), begin=begin)))
+        for file in files
+    ]
+
+
+def drawn_members(
+    instance: Instance,
+    count: int,
+    uncertainty: VortexUncertainty,
+    rng: np.random.Generator,
+    folder: Path | None = None,
+) -> list[Superposition]:
+    """Truths drawn from the vortices of an instance; its other currents stay as they are.
+
+    Parameters
+    ----------
+    instance
+        The mission.
+    count
+        Number of members.
+    uncertainty
+        How far they may be from the instance's current.
+    rng
+        Random numbers.
+    folder
+        Folder that names in the instance are relative to.
+
+    Raises
+    ------
+    InputError
+        If the instance states no vortices.
+    """
+    stated = stated_current(instance, folder)
+    vortices = [part for part in stated.parts if isinstance(part, LambVortices)]
+    if not vortices:
+        raise InputError(
+            "states none to draw from; name the files of an ensemble",
+            field="ocean.currents.vortices",
+        )
+    others = tuple(part for part in stated.parts if not isinstance(part, LambVortices))
+    low, high = instance.points.min(axis=0), instance.points.max(axis=0)
+    region = (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
+    return [
+        Superposition((*others, *(draw_truth(each, uncertainty, region, rng) for each in vortices)))
+        for _ in range(count)
+    ]
+
+
+def _with(instance: Instance, currents: Currents) -> Instance:
+    return replace(instance, ocean=replace(instance.ocean, currents=currents))
+
+
+def member_times(voyage: Voyage, member: Superposition) -> Floats:
+    """What the planned paths of all legs take in another current, in seconds, shape (n + 2, n + 2).
+
+    A leg that meets a current too strong there, or the member's own land or the end of its data, is
+    infinitely long. Without planned paths legs are straight.
+
+    Raises
+    ------
+    InputError
+        If the member has no data at a stop, or land there.
+    """
+    instance = voyage.instance
+    waters = _waters(instance, member)
+    barriers = waters.barriers._replace(**_ANYWHERE)
+    times = np.full((len(instance.points),) * 2, np.inf)
+    np.fill_diagonal(times, 0.0)
+    for leg, track in _tracks(voyage):
+        if track_clearance(barriers, track) >= 0.0:
+            times[leg] = track_time(waters.grid, track, 0.0, waters.speed)
+    return times
+
+
+def _waters(instance: Instance, member: Superposition) -> Waters:
+    """The ocean of a member; what it refuses names its file."""
+    try:
+        return waters_of(instance, member)
+    except InputError as error:
+        part = _filed_part(member)
+        raise error if part is None else error.at(part.source[1]) from error.__cause__
+
+
+def _filed_part(current: Superposition) -> ModelCurrent | None:
+    """What of a current comes from a file."""
+    return next((part for part in current.parts if isinstance(part, ModelCurrent)), None)
+
+
+def _tracks(voyage: Voyage) -> Iterable[tuple[tuple[int, int], Floats]]:
+    """Waypoints of every leg in metres."""
+    if voyage.legs is not None:
+        return voyage.legs.planned_tracks()
+    points = voyage.instance.points
+    last = len(points) - 1
+    legs = ((i, j) for i in range(last) for j in range(1, last + 1) if i != j)
+    return ((leg, points[list(leg)]) for leg in legs)
