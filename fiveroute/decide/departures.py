@@ -11,12 +11,13 @@ from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
-from fiveroute.decide.sweep import Row, Sweep, figures, vary
+from fiveroute.decide.sweep import Row, Sweep, figures, shown, vary
 from fiveroute.errors import InputError
 from fiveroute.fleet_planning import plan
 from fiveroute.instance import Instance
 from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.mission import Bounding
+from fiveroute.ocean.stated import filed_current
 
 __all__ = ["begin_after", "sweep_departures"]
 
@@ -43,7 +44,8 @@ def sweep_departures(
     hours
         Departures, in hours after the one that the instance states, or else the file's first time.
     fleet_size
-        Number of AUVs; None takes that of the instance, or else estimates it.
+        Number of AUVs; None takes that of the instance, or else the estimate for the first
+        departure.
     bound
         Where the upper bounds come from.
     limits
@@ -60,21 +62,25 @@ def sweep_departures(
     InputError
         If there is no file of currents, or a departure lies beyond its times.
     """
-    first = _stated_begin(instance, folder or Path())
+    moments = dict(zip(hours, _moments(instance, hours, folder), strict=True))
+    size = fleet_size
 
     def row(after: float, limits: Limits) -> Row:
-        begin = begin_after(first, after)
-        currents = replace(instance.ocean.currents, begin=begin)
+        nonlocal size
+        currents = replace(instance.ocean.currents, begin=moments[after])
         mission = replace(instance, ocean=replace(instance.ocean, currents=currents))
         planned = plan(
-            mission, fleet_size=fleet_size, bound=bound, limits=limits, seed=seed, folder=folder
+            mission, fleet_size=size, bound=bound, limits=limits, seed=seed, folder=folder
         )
-        return {"departure": begin, "fleet_size": planned.fleet_size, **figures(planned)}
+        size = planned.fleet_size  # the fleet is the same, whenever it leaves
+        return {"departure": moments[after], "fleet_size": size, **figures(planned)}
 
     clock = (limits or Limits()).start()
     sweep = vary(instance.name, "hours", "h", hours, row, clock=clock, progress=progress)
-    best = sweep.best("completion_rate")
-    return sweep if best is None else sweep.marking(best["hours"], f"best, {best['departure']} UTC")
+    best = sweep.best("completion_rate", least="mean_duration")
+    if best is None:
+        return sweep
+    return sweep.marking(best["hours"], f"best, {shown('departure', best['departure'])} UTC")
 
 
 def begin_after(first: datetime, hours: float) -> str:
@@ -83,23 +89,28 @@ def begin_after(first: datetime, hours: float) -> str:
     return moment.astimezone(UTC).replace(tzinfo=None).isoformat(timespec="seconds")
 
 
-def _stated_begin(instance: Instance, folder: Path) -> datetime:
-    """When the instance's mission begins."""
-    currents = instance.ocean.currents
-    if currents.file is None:
+def _moments(instance: Instance, hours: Sequence[float], folder: Path | None) -> list[str]:
+    """The departures as an instance states them, if the file has them all."""
+    forecast = filed_current(instance, folder)
+    if forecast is None:
         raise InputError(
             "needs a forecast that varies; name a CF netCDF file of currents",
             field="ocean.currents.file",
         )
-    if currents.begin is not None:
-        moment = datetime.fromisoformat(currents.begin)
-        return moment if moment.tzinfo is not None else moment.replace(tzinfo=UTC)
-    from fiveroute.ocean.model_current import read_current
-
-    current = read_current(folder / currents.file, origin=instance.origin, depth=currents.depth)
-    times = current.coverage().time
-    if times is None:
+    times = forecast.coverage().time
+    if times is None or forecast.is_steady:
         raise InputError(
             "holds a single time; a file of several is needed", field="ocean.currents.file"
         )
-    return datetime.fromisoformat(str(times[0].astype("datetime64[s]"))).replace(tzinfo=UTC)
+    first, last = (str(time.astype("datetime64[s]")) for time in times)
+    begin = datetime.fromisoformat(instance.ocean.currents.begin or first)
+    begin = begin if begin.tzinfo is not None else begin.replace(tzinfo=UTC)
+    moments = [begin_after(begin, after) for after in hours]
+    for after, moment in zip(hours, moments, strict=True):
+        if not first <= moment <= last:
+            raise InputError(
+                f"is {moment} UTC; the forecast is from {first} to {last} UTC",
+                field="hours",
+                value=after,
+            )
+    return moments

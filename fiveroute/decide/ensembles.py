@@ -187,8 +187,11 @@ def ensemble_sweep(voyage: Voyage, planned: EnsemblePlan) -> Sweep:
         }
         for candidate in planned.candidates
     )
-    because = f"best in the worst {planned.alpha:.0%} of training"
-    return Sweep(voyage.mission.name, "planned_for", "", rows, planned.candidates[0].name, because)
+    chosen = planned.chosen
+    trained, tested = len(chosen.training), len(chosen.held_out)
+    worst = _worst(trained, planned.alpha)
+    because = f"best in the worst {worst} of {trained} members; tested in {tested} others"
+    return Sweep(voyage.mission.name, "planned_for", "", rows, chosen.name, because)
 
 
 def _wanted(voyage: Voyage, training: Floats) -> dict[str, Floats]:
@@ -228,5 +231,9 @@ def recourse_completion(problem: TeamOrienteering, plan: Plan, travel: Floats) -
 
 def cvar(rates: Sequence[float], alpha: float) -> float:
     """Mean of the worst share alpha of some completion rates, one of them at least."""
-    worst = sorted(rates)[: max(math.ceil(alpha * len(rates) - 1e-9), 1)]
-    return float(np.mean(worst))
+    return float(np.mean(sorted(rates)[: _worst(len(rates), alpha)]))
+
+
+def _worst(count: int, alpha: float) -> int:
+    """How many of so many members are the worst share alpha of them."""
+    return max(math.ceil(alpha * count - 1e-9), 1)

@@ -21,7 +21,7 @@ from fiveroute.instance import Currents, Instance
 from fiveroute.ocean.current_grid import Region
 from fiveroute.ocean.currents import LambVortices, Superposition
 from fiveroute.ocean.model_current import ModelCurrent
-from fiveroute.ocean.stated import stated_current
+from fiveroute.ocean.stated import filed_current, stated_current
 from fiveroute.ocean.uncertain_ocean import VortexUncertainty, draw_truth
 from fiveroute.paths.legs import Waters, track_clearance, track_time
 from fiveroute.paths.voyage import Voyage
@@ -53,7 +53,7 @@ def filed_members(instance: Instance, files: Sequence[Path], folder: Path) -> li
     """
     stated = instance.ocean.currents
     first = files[0].absolute() if stated.file is None else folder / stated.file
-    own = _filed_part(stated_current(_with(instance, replace(stated, file=str(first)))))
+    own = filed_current(_with(instance, replace(stated, file=str(first))))
     assert own is not None
     times, begin = own.coverage().time, stated.begin
     if begin is None and times is not None:
@@ -139,13 +139,8 @@ def _waters(instance: Instance, member: Superposition) -> Waters:
     try:
         return waters_of(instance, member)
     except InputError as error:
-        part = _filed_part(member)
-        raise error if part is None else error.at(part.source[1]) from error.__cause__
-
-
-def _filed_part(current: Superposition) -> ModelCurrent | None:
-    """What of a current comes from a file."""
-    return next((part for part in current.parts if isinstance(part, ModelCurrent)), None)
+        files = [part.source[1] for part in member.parts if isinstance(part, ModelCurrent)]
+        raise error.at(files[0]) if files else error from error.__cause__
 
 
 def _tracks(voyage: Voyage) -> Iterable[tuple[tuple[int, int], Floats]]:

@@ -84,7 +84,8 @@ def sweep_reserves(
     name = voyage.mission.name
     sweep = vary(name, "reserve", "", reserves, row, clock=clock, progress=progress)
     in_time = [row for row in sweep.rows if float(row["late_share"] or 0.0) <= accepted_late]
+    rule = f"with at most {100.0 * accepted_late:g} % late"
     if not in_time:
-        return sweep
+        return sweep.marking(None, f"no reserve {rule}")
     best = max(in_time, key=lambda row: float(row["completion_rate"] or 0.0))
-    return sweep.marking(best["reserve"], f"best with at most {accepted_late:.1%} late")
+    return sweep.marking(best["reserve"], f"best {rule}")

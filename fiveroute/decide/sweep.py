@@ -6,7 +6,6 @@ be interrupted: what is done by then is the answer.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from html import escape
@@ -20,12 +19,18 @@ from fiveroute.words import ENDLESS, clock
 
 __all__ = ["Row", "Sweep", "figures", "heading", "seen_columns", "shown", "vary"]
 
-_ONLY_IN_FILES = {"routes", "bound", "objective", "held_out_p25", "held_out_p75", "unreachable"}
+_ONLY_IN_FILES = {"routes", "bound", "objective", "held_out_p25", "held_out_p75"}
+_ONLY_IF_ANY = {"unreachable"}
 _DATES = {"departure"}
 _TIMES = {"endurance", "mean_duration"}
 _SHARES = {"completion_rate", "bound_rate", "gap", "late_share", "p5", "p95"}
 _HEADINGS = {
     "fleet_size": "AUVs",
+    "hours": "departure",
+    "departure": "UTC",
+    "unreachable": "out of reach",
+    "training_cvar": "training CVaR",
+    "held_out_cvar": "held out CVaR",
     "completion_rate": "collected",
     "bound_rate": "at most",
     "mean_duration": "mean time",
@@ -73,10 +78,17 @@ class Sweep:
         """The same with a value pointed out."""
         return replace(self, marked=value, because=because)
 
-    def best(self, column: str) -> Row | None:
-        """The first row of the greatest figure in a column; None where all are missing."""
-        known = [row for row in self.rows if _number(row[column]) is not None]
-        return max(known, key=lambda row: _number(row[column]) or -math.inf, default=None)
+    def best(self, column: str, *, least: str = "") -> Row | None:
+        """The row of the greatest figure in a column; None where all are missing.
+
+        Of equals it is the one of the least figure in the column `least`, or else the first one.
+        """
+
+        def worth(row: Row) -> tuple[float, float]:
+            cost = _number(row[least]) if least else None
+            return _number(row[column]) or 0.0, -(cost or 0.0)
+
+        return max((row for row in self.rows if row[column] is not None), key=worth, default=None)
 
     def _repr_html_(self) -> str:
         """The table, for notebooks; the value to point out is bold."""
@@ -147,7 +159,12 @@ def figures(plan: FleetPlan) -> dict[str, Value]:
 
 def seen_columns(sweep: Sweep) -> list[str]:
     """The columns that people want to see."""
-    return [name for name in (sweep.rows[0] if sweep.rows else ()) if name not in _ONLY_IN_FILES]
+    return [
+        name
+        for name in (sweep.rows[0] if sweep.rows else ())
+        if name not in _ONLY_IN_FILES
+        and (name not in _ONLY_IF_ANY or any(row[name] for row in sweep.rows))
+    ]
 
 
 def heading(name: str) -> str:

@@ -18,7 +18,7 @@ from fiveroute.ocean.obstacles import barriers_of
 if TYPE_CHECKING:
     from fiveroute.ocean.model_current import ModelCurrent
 
-__all__ = ["stated_barriers", "stated_current"]
+__all__ = ["filed_current", "stated_barriers", "stated_current"]
 
 
 def stated_current(instance: Instance, folder: Path | None = None) -> Superposition:
@@ -43,11 +43,19 @@ def stated_current(instance: Instance, folder: Path | None = None) -> Superposit
         parts.append(LambVortices(*table.T.copy()))
     if currents.uniform is not None:
         parts.append(UniformCurrent(currents.uniform.u, currents.uniform.v))
-    if currents.file is not None:
-        file = (folder or Path()) / currents.file
-        what = instance.origin, currents.depth, currents.begin
-        parts.append(_filed_current(file, _stamp(file), *what))
+    filed = filed_current(instance, folder)
+    if filed is not None:
+        parts.append(filed)
     return Superposition(tuple(parts))
+
+
+def filed_current(instance: Instance, folder: Path | None = None) -> ModelCurrent | None:
+    """The current of an instance's file, see `stated_current`; None if it names none."""
+    currents = instance.ocean.currents
+    if currents.file is None:
+        return None
+    file = (folder or Path()) / currents.file
+    return _filed_current(file, _stamp(file), instance.origin, currents.depth, currents.begin)
 
 
 def stated_barriers(

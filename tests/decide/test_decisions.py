@@ -1,7 +1,9 @@
 """Fleet sizes, speeds, departures and reserves of small missions."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from datetime import UTC, datetime
+from pathlib import Path
 
 import pytest
 
@@ -13,7 +15,8 @@ from fiveroute.decide.speeds import PowerModel, sweep_speeds
 from fiveroute.decide.sweep import Row
 from fiveroute.errors import InputError
 from fiveroute.generate import generate
-from fiveroute.instance import Instance
+from fiveroute.instance import Currents, Instance, Point
+from fiveroute.limits import Limits
 from fiveroute.paths.voyage import Voyage
 
 
@@ -109,7 +112,43 @@ def test_a_reserve_costs_data_and_saves_vehicles(mission: Instance) -> None:
     assert late[0] > late[1]
     assert rates[0] >= rates[1]
     assert sweep.marked == (3.0 if late[1] <= 0.01 else None)
+    assert "with at most 1 % late" in sweep.because
     sweep_figure(sweep)
+
+
+@pytest.fixture
+def forecast(mission: Instance, write: Callable[..., Path]) -> Instance:
+    """The same near the origin, with a current that grows by 0.2 m/s an hour, for two hours."""
+    near = tuple(replace(node, x=0.2 * node.x, y=0.2 * node.y) for node in mission.nodes[:4])
+    ocean = replace(mission.ocean, currents=Currents(file=str(write("sea.nc"))))
+    fleet = replace(mission.fleet, endurance=2200.0)
+    ends = {"start": Point(0.0, 0.0), "destination": Point(0.0, 0.0)}
+    return replace(mission, nodes=near, fleet=fleet, ocean=ocean, **ends)
+
+
+def test_the_same_fleet_leaves_at_every_time(forecast: Instance) -> None:
+    sweep = sweep_departures(forecast, [0.0, 1.0, 2.0], bound="none")
+    assert [row["departure"] for row in sweep.rows] == [
+        f"2020-03-01T0{hour}:00:00" for hour in (0, 1, 2)
+    ]
+    assert len(set(column(sweep.rows, "fleet_size"))) == 1
+    rates = column(sweep.rows, "completion_rate")
+    best = rates.index(max(rates))
+    assert (sweep.marked, sweep.because) == (best, f"best, 2020-03-01 0{best}:00 UTC")
+
+
+@pytest.mark.parametrize("beyond", [-1.0, 2.1])
+def test_departures_beyond_the_forecast_are_refused_before_the_work(
+    forecast: Instance, beyond: float
+) -> None:
+    with pytest.raises(InputError, match=r"^hours: .*from 2020-03-01T00:00:00 to .*T02:00:00"):
+        sweep_departures(forecast, [0.0, beyond], limits=Limits(0.0))
+
+
+def test_a_single_time_is_no_forecast(forecast: Instance, write: Callable[..., Path]) -> None:
+    write("sea.nc", hours=1)
+    with pytest.raises(InputError, match=r"^ocean.currents.file: holds a single time"):
+        sweep_departures(forecast, [0.0])
 
 
 def test_departures_need_a_forecast(mission: Instance) -> None:

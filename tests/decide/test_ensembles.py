@@ -70,6 +70,7 @@ def test_the_choice_is_the_best_of_the_training_members(mission: Instance) -> No
     assert worth == sorted(worth, reverse=True)
     sweep = ensemble_sweep(voyage, planned)
     assert sweep.marked == planned.chosen.name
+    assert sweep.because == "best in the worst 2 of 5 members; tested in 3 others"
     sweep_figure(sweep)
 
 

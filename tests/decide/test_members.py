@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import xarray as xr
 
 from fiveroute.decide.members import drawn_members, filed_members, member_times
 from fiveroute.errors import InputError
@@ -17,12 +16,11 @@ from fiveroute.ocean.stated import stated_current
 from fiveroute.ocean.uncertain_ocean import VortexUncertainty
 from fiveroute.paths.voyage import Voyage
 
-LON, LAT = 4.8, 60.6
 Write = Callable[..., Path]
 
 
 @pytest.fixture
-def mission(tmp_path: Path, write: Write) -> Instance:
+def mission(write: Write) -> Instance:
     """One node to the east of the start, in water that moves to the east at 0.2 m/s."""
     write("sea.nc")
     return Instance(
@@ -33,42 +31,6 @@ def mission(tmp_path: Path, write: Write) -> Instance:
         Fleet(1, 1.0, 9000.0),
         ocean=Ocean(Currents(file="sea.nc")),
     )
-
-
-@pytest.fixture
-def write(tmp_path: Path) -> Write:
-    """Write a sea of an even current to the east, which grows by as much every hour."""
-
-    def to_file(
-        name: str,
-        east: float = 0.2,
-        *,
-        west: float = -0.1,
-        cells: int = 21,
-        names: tuple[str, str] = ("uo", "vo"),
-        begin: str = "2020-03-01T00:00",
-        hours: int = 3,
-        land: slice | None = None,
-    ) -> Path:
-        lon, lat = LON + np.linspace(west, 0.1, cells), LAT + np.linspace(-0.05, 0.05, cells)
-        u = np.multiply.outer(np.arange(1.0, hours + 1.0), np.full((cells, cells), east))
-        if land is not None:
-            u[:, :, land] = np.nan
-        kinds = ("eastward_sea_water_velocity", "northward_sea_water_velocity")
-        data = {
-            each: (("time", "lat", "lon"), values, {"standard_name": kind, "units": "m s-1"})
-            for each, kind, values in zip(names, kinds, (u, 0.0 * u), strict=True)
-        }
-        places = {
-            "time": np.datetime64(begin, "ns") + np.arange(hours) * np.timedelta64(1, "h"),
-            "lat": ("lat", lat, {"units": "degrees_north"}),
-            "lon": ("lon", lon, {"units": "degrees_east"}),
-        }
-        path = tmp_path / name
-        xr.Dataset(data, places).to_netcdf(path, engine="h5netcdf")
-        return path
-
-    return to_file
 
 
 def times(mission: Instance, member: Path) -> tuple[float, float]:
@@ -161,5 +123,5 @@ def test_without_vortices_there_is_nothing_to_draw_from() -> None:
 
 
 def test_the_plane_of_a_file_is_read_back(mission: Instance) -> None:
-    placed = replace(mission, crs=LocalPlane(LON, LAT).proj)
-    assert placed.origin == (LON, LAT)
+    placed = replace(mission, crs=LocalPlane(4.8, 60.6).proj)
+    assert placed.origin == (4.8, 60.6)

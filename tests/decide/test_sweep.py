@@ -2,7 +2,7 @@
 
 import pytest
 
-from fiveroute.decide.sweep import Row, Sweep, Value, shown, vary
+from fiveroute.decide.sweep import Row, Sweep, Value, seen_columns, shown, vary
 from fiveroute.limits import Limits
 
 
@@ -41,6 +41,21 @@ def test_an_interruption_leaves_what_is_done() -> None:
 
 def test_missing_figures_are_no_best() -> None:
     assert Sweep("sea", "speed", "", ({"speed": 1.0, "gap": None},)).best("gap") is None
+
+
+def test_of_equals_the_cheapest_is_the_best() -> None:
+    rows: tuple[Row, ...] = tuple(
+        {"data": data, "time": time} for data, time in ((1.0, 5.0), (2.0, 9.0), (2.0, 7.0))
+    )
+    sweep = Sweep("sea", "data", "", rows)
+    assert sweep.best("data") == rows[1]
+    assert sweep.best("data", least="time") == rows[2]
+
+
+def test_nodes_out_of_reach_are_shown_where_there_are_any() -> None:
+    rows: list[Row] = [{"speed": 1.0, "unreachable": 0}, {"speed": 2.0, "unreachable": 3}]
+    assert seen_columns(Sweep("sea", "speed", "", (rows[0],))) == ["speed"]
+    assert seen_columns(Sweep("sea", "speed", "", tuple(rows))) == ["speed", "unreachable"]
 
 
 @pytest.mark.parametrize(

@@ -37,6 +37,8 @@ def print_sweep(sweep: Sweep) -> None:
         unit = f" {sweep.unit}" if sweep.unit else ""
         marked = shown(sweep.quantity, sweep.marked)
         tell(f"{heading(sweep.quantity)} {marked}{unit}: {sweep.because}")
+    elif sweep.because:
+        tell(sweep.because)
 
 
 def note_left_out(sweep: Sweep) -> None:
