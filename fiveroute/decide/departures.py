@@ -109,7 +109,7 @@ def _moments(instance: Instance, hours: Sequence[float], folder: Path | None) ->
     for after, moment in zip(hours, moments, strict=True):
         if not first <= moment <= last:
             raise InputError(
-                f"is {moment} UTC; the forecast is from {first} to {last} UTC",
+                f"is {moment} UTC, beyond the forecast; choose hours from {first} to {last} UTC",
                 field="hours",
                 value=after,
             )

@@ -37,6 +37,7 @@ __all__ = [
     "EnsemblePlan",
     "cvar",
     "ensemble_sweep",
+    "held_out_of",
     "plan_against_ensemble",
     "recourse_completion",
 ]
@@ -124,12 +125,7 @@ def plan_against_ensemble(
     InputError
         If no member is left to train with or to test on, or alpha is out of range.
     """
-    if not 0 < held_out < len(times):
-        raise InputError(
-            f"must leave a member to plan with and one to test on; there are {len(times)}",
-            field="held_out",
-            value=held_out,
-        )
+    held_out = held_out_of(len(times), held_out)
     if not 0.0 < alpha <= 1.0:
         raise InputError("must be above 0 and at most 1", field="alpha", value=alpha)
     clock = (limits or Limits()).start()
@@ -167,6 +163,24 @@ def plan_against_ensemble(
     return EnsemblePlan(alpha, tuple(candidates))
 
 
+def held_out_of(count: int, held_out: int | None = None) -> int:
+    """How many of so many members are held out, half of them unless a number is given.
+
+    Raises
+    ------
+    InputError
+        If no member is left to plan with or to test on.
+    """
+    tested = max(count // 2, 1) if held_out is None else held_out
+    if not 0 < tested < count:
+        raise InputError(
+            f"must leave a member to plan with and one to test on, of {count}",
+            field="held_out",
+            value=tested,
+        )
+    return tested
+
+
 def ensemble_sweep(voyage: Voyage, planned: EnsemblePlan) -> Sweep:
     """The candidates as a table, the chosen one first and pointed out."""
     rows: tuple[Row, ...] = tuple(
@@ -190,7 +204,7 @@ def ensemble_sweep(voyage: Voyage, planned: EnsemblePlan) -> Sweep:
     chosen = planned.chosen
     trained, tested = len(chosen.training), len(chosen.held_out)
     worst = _worst(trained, planned.alpha)
-    because = f"best in the worst {worst} of {trained} members; tested in {tested} others"
+    because = f"best in the worst {worst} of {trained} planned with; {tested} held out"
     return Sweep(voyage.mission.name, "planned_for", "", rows, chosen.name, because)
 
 

@@ -20,14 +20,14 @@ from fiveroute.errors import InputError
 from fiveroute.instance import Currents, Instance
 from fiveroute.ocean.current_grid import Region
 from fiveroute.ocean.currents import LambVortices, Superposition
-from fiveroute.ocean.model_current import ModelCurrent
-from fiveroute.ocean.stated import filed_current, stated_current
+from fiveroute.ocean.obstacles import refuse_points_inside
+from fiveroute.ocean.stated import filed_current, stated_barriers, stated_current
 from fiveroute.ocean.uncertain_ocean import VortexUncertainty, draw_truth
-from fiveroute.paths.legs import Waters, track_clearance, track_time
+from fiveroute.paths.legs import track_clearance, track_time
 from fiveroute.paths.voyage import Voyage
 from fiveroute.tiers.pathing import waters_of
 
-__all__ = ["drawn_members", "filed_members", "member_times"]
+__all__ = ["drawn_members", "filed_members", "lost_share", "member_times"]
 
 Floats = NDArray[np.float64]
 
@@ -49,7 +49,8 @@ def filed_members(instance: Instance, files: Sequence[Path], folder: Path) -> li
     Raises
     ------
     InputError
-        If a file cannot be read as a current, or does not hold the time of the mission.
+        If a file cannot be read as a current, does not hold the time of the mission, or has no
+        data at a stop, or land there.
     """
     stated = instance.ocean.currents
     first = files[0].absolute() if stated.file is None else folder / stated.file
@@ -59,10 +60,25 @@ def filed_members(instance: Instance, files: Sequence[Path], folder: Path) -> li
     if begin is None and times is not None:
         begin = str(times[0].astype("datetime64[s]"))
     placed = replace(instance, crs=instance.crs or own.plane.proj)
-    return [
-        stated_current(_with(placed, replace(stated, file=str(file.absolute()), begin=begin)))
-        for file in files
-    ]
+    members = []
+    for file in files:
+        member = _with(placed, replace(stated, file=str(file.absolute()), begin=begin))
+        members.append(stated_current(member))
+        _require_stops(member, members[-1], file)
+    return members
+
+
+def _with(instance: Instance, currents: Currents) -> Instance:
+    return replace(instance, ocean=replace(instance.ocean, currents=currents))
+
+
+def _require_stops(instance: Instance, member: Superposition, file: Path) -> None:
+    """Refuse a member without data or with land at a stop."""
+    try:
+        member(*instance.points.T)
+        refuse_points_inside(instance, stated_barriers(instance, member))
+    except InputError as error:
+        raise error.at(file) from error.__cause__
 
 
 def drawn_members(
@@ -108,23 +124,14 @@ def drawn_members(
     ]
 
 
-def _with(instance: Instance, currents: Currents) -> Instance:
-    return replace(instance, ocean=replace(instance.ocean, currents=currents))
-
-
 def member_times(voyage: Voyage, member: Superposition) -> Floats:
     """What the planned paths of all legs take in another current, in seconds, shape (n + 2, n + 2).
 
     A leg that meets a current too strong there, or the member's own land or the end of its data, is
     infinitely long. Without planned paths legs are straight.
-
-    Raises
-    ------
-    InputError
-        If the member has no data at a stop, or land there.
     """
     instance = voyage.instance
-    waters = _waters(instance, member)
+    waters = waters_of(instance, member)
     barriers = waters.barriers._replace(**_ANYWHERE)
     times = np.full((len(instance.points),) * 2, np.inf)
     np.fill_diagonal(times, 0.0)
@@ -134,13 +141,11 @@ def member_times(voyage: Voyage, member: Superposition) -> Floats:
     return times
 
 
-def _waters(instance: Instance, member: Superposition) -> Waters:
-    """The ocean of a member; what it refuses names its file."""
-    try:
-        return waters_of(instance, member)
-    except InputError as error:
-        files = [part.source[1] for part in member.parts if isinstance(part, ModelCurrent)]
-        raise error.at(files[0]) if files else error from error.__cause__
+def lost_share(voyage: Voyage, times: Floats) -> float:
+    """Share of the planned legs that cannot be sailed with the leg times of a member."""
+    planned = voyage.instance.travel if voyage.travel is None else voyage.travel
+    is_leg = ((planned > 0.0) & np.isfinite(planned))[:-1, 1:]
+    return float(np.isinf(times[:-1, 1:][is_leg]).sum() / max(is_leg.sum(), 1))
 
 
 def _tracks(voyage: Voyage) -> Iterable[tuple[tuple[int, int], Floats]]:

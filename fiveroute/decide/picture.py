@@ -21,7 +21,7 @@ _SPREADS = (
 _LINES = (
     ("completion_rate", "plan", BLUE),
     ("held_out_mean", "mean of held-out members", BLUE),
-    ("held_out_cvar", "their CVaR", VERMILION),
+    ("held_out_cvar", "their CVaR, the mean of the worst", VERMILION),
 )
 _LABELS = {
     "fleet_size": "AUVs",
@@ -45,16 +45,16 @@ def sweep_figure(sweep: Sweep) -> Figure:
     places = [float(k) if words else float(value or 0) for k, value in enumerate(values)]
     for name, label, colour in _LINES:
         if name in sweep.rows[0]:
-            axis.plot(
-                places, _column(sweep, name), "o" if words else "o-", color=colour, label=label
-            )
+            style = "o" if words else "o-"
+            axis.plot(places, _column(sweep, name), style, color=colour, label=label)
     if "bound_rate" in sweep.rows[0]:
         axis.plot(places, _column(sweep, "bound_rate"), "--", color=_GREY, label="proven bound")
     for low, high, label in _SPREADS:
         if low in sweep.rows[0]:
             spread = _column(sweep, low), _column(sweep, high)
             if words:
-                axis.vlines(places, *spread, color=BLUE, alpha=0.3, linewidth=6, label=label)
+                pale = (BLUE, 0.3)
+                axis.vlines(places, *spread, color=pale, linewidth=6, label=label, zorder=1)
             else:
                 axis.fill_between(places, *spread, color=BLUE, alpha=0.15, label=label)
     if words:
@@ -70,7 +70,7 @@ def sweep_figure(sweep: Sweep) -> Figure:
         ylabel="share of all data collected",
     )
     axis.grid(alpha=0.3)
-    figure.legend(loc="outside lower center", ncols=4, fontsize="small")
+    figure.legend(loc="outside lower center", ncols=2 if words else 4, fontsize="small")
     return figure
 
 

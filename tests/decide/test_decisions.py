@@ -122,8 +122,8 @@ def forecast(mission: Instance, write: Callable[..., Path]) -> Instance:
     near = tuple(replace(node, x=0.2 * node.x, y=0.2 * node.y) for node in mission.nodes[:4])
     ocean = replace(mission.ocean, currents=Currents(file=str(write("sea.nc"))))
     fleet = replace(mission.fleet, endurance=2200.0)
-    ends = {"start": Point(0.0, 0.0), "destination": Point(0.0, 0.0)}
-    return replace(mission, nodes=near, fleet=fleet, ocean=ocean, **ends)
+    pier = Point(0.0, 0.0)
+    return replace(mission, nodes=near, start=pier, destination=pier, fleet=fleet, ocean=ocean)
 
 
 def test_the_same_fleet_leaves_at_every_time(forecast: Instance) -> None:
@@ -141,7 +141,9 @@ def test_the_same_fleet_leaves_at_every_time(forecast: Instance) -> None:
 def test_departures_beyond_the_forecast_are_refused_before_the_work(
     forecast: Instance, beyond: float
 ) -> None:
-    with pytest.raises(InputError, match=r"^hours: .*from 2020-03-01T00:00:00 to .*T02:00:00"):
+    with pytest.raises(
+        InputError, match=r"^hours: .*choose hours from 2020-03-01T00:00:00 to .*T02:00:00"
+    ):
         sweep_departures(forecast, [0.0, beyond], limits=Limits(0.0))
 
 

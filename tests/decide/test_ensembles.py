@@ -8,6 +8,7 @@ import pytest
 from fiveroute.decide.ensembles import (
     cvar,
     ensemble_sweep,
+    held_out_of,
     plan_against_ensemble,
     recourse_completion,
 )
@@ -70,8 +71,13 @@ def test_the_choice_is_the_best_of_the_training_members(mission: Instance) -> No
     assert worth == sorted(worth, reverse=True)
     sweep = ensemble_sweep(voyage, planned)
     assert sweep.marked == planned.chosen.name
-    assert sweep.because == "best in the worst 2 of 5 members; tested in 3 others"
+    assert sweep.because == "best in the worst 2 of 5 planned with; 3 held out"
     sweep_figure(sweep)
+
+
+def test_half_of_the_members_are_held_out() -> None:
+    assert [held_out_of(count) for count in (2, 3, 30)] == [1, 1, 15]
+    assert held_out_of(30, 10) == 10
 
 
 @pytest.mark.parametrize("held_out", [0, 4, 9])

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fiveroute.decide.members import drawn_members, filed_members, member_times
+from fiveroute.decide.members import drawn_members, filed_members, lost_share, member_times
 from fiveroute.errors import InputError
 from fiveroute.generate import generate
 from fiveroute.instance import Currents, Fleet, Instance, Node, Ocean, Point, Vortex
@@ -86,9 +86,12 @@ def test_a_stop_beyond_the_data_or_on_land_names_the_member(
 
 
 def test_a_leg_over_land_cannot_be_sailed(mission: Instance, write: Write) -> None:
-    there, back = times(mission, write("island.nc", land=slice(12, 13)))
-    assert there == np.inf
-    assert back == np.inf
+    member = write("island.nc", land=slice(12, 13))
+    assert times(mission, member) == (np.inf, np.inf)
+    (ocean,) = filed_members(mission, [member], member.parent)
+    voyage = Voyage.straight(mission)
+    assert lost_share(voyage, member_times(voyage, ocean)) == pytest.approx(2.0 / 3.0)
+    assert lost_share(voyage, mission.travel) == 0
 
 
 def test_a_leg_against_too_strong_a_current_cannot_be_sailed(

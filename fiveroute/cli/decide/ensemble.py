@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,10 +12,14 @@ from click.core import ParameterSource
 
 from fiveroute.cli import options
 from fiveroute.cli.decide.question import Work, at_sea, question
+from fiveroute.cli.notes import note
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from fiveroute.decide.sweep import Sweep
-    from fiveroute.limits import Limits
+    from fiveroute.limits import Limits, ProgressCallback
     from fiveroute.ocean.currents import Superposition
     from fiveroute.paths.voyage import Voyage
 
@@ -70,6 +75,7 @@ def command(
     instance: Path,
     members: tuple[Path, ...],
     draw: int,
+    held_out: int | None,
     displacement: float,
     strength: float,
     seed: int,
@@ -83,6 +89,7 @@ def command(
     _require_drawn(members)
     import numpy as np
 
+    from fiveroute.decide.ensembles import held_out_of
     from fiveroute.decide.members import drawn_members, filed_members
     from fiveroute.formats import read_instance
     from fiveroute.ocean.uncertain_ocean import VortexUncertainty
@@ -93,7 +100,9 @@ def command(
     else:
         uncertainty = VortexUncertainty(displacement=displacement, strength=strength)
         oceans = drawn_members(mission, draw, uncertainty, np.random.default_rng(seed), folder)
-    sweep = partial(_against, oceans, **how)
+    names = list(map(str, members))
+    tested = held_out_of(len(oceans), held_out)
+    sweep = partial(_against, oceans, names, tested, **how)
     return at_sea(sweep, mission, instance, straight_lines=False, seed=seed)
 
 
@@ -108,22 +117,39 @@ def _require_drawn(members: tuple[Path, ...]) -> None:
 
 
 def _against(
-    oceans: list[Superposition],
+    oceans: Sequence[Superposition],
+    names: Sequence[str],
+    tested: int,
     voyage: Voyage,
     *,
-    held_out: int | None,
     limits: Limits,
+    progress: ProgressCallback | None,
     **how: Any,
 ) -> Sweep:
     """The table of a voyage in an ensemble."""
     from fiveroute.decide.ensembles import ensemble_sweep, plan_against_ensemble
     from fiveroute.decide.members import member_times
+    from fiveroute.limits import Progress
 
-    times = []
-    for ocean in oceans:
-        if limits.interrupt.is_set():  # before there is any row to give
+    clock, times = limits.start(), []
+    for k, ocean in enumerate(oceans, start=1):
+        if clock.interrupted:  # before there is any row to give
             raise KeyboardInterrupt
+        if progress is not None:
+            progress(Progress(clock.seconds, message=f"member {k} of {len(oceans)}"))
         times.append(member_times(voyage, ocean))
-    tested = held_out or max(len(oceans) // 2, 1)
-    planned = plan_against_ensemble(voyage, times, tested, limits=limits, **how)
+    _note_lost(voyage, dict(zip(names, times, strict=False)))
+    planned = plan_against_ensemble(
+        voyage, times, tested, limits=clock.rest(), progress=progress, **how
+    )
     return ensemble_sweep(voyage, planned)
+
+
+def _note_lost(voyage: Voyage, times: Mapping[str, NDArray[np.float64]]) -> None:
+    """Say in which files legs cannot be sailed: land may lie elsewhere than it is planned with."""
+    from fiveroute.decide.members import lost_share
+
+    lost = {name: lost_share(voyage, table) for name, table in times.items()}
+    told = ", ".join(f"{share:.0%} in {name}" for name, share in lost.items() if share)
+    if told:
+        note(f"planned legs that cannot be sailed (land, no data, current): {told}")
