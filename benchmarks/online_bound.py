@@ -15,9 +15,9 @@ import numpy as np
 
 from fiveroute.generate import paper_scenario
 from fiveroute.routes import Plan
-from fiveroute.sea.clairvoyant import clairvoyant_plan
+from fiveroute.sea.bounds.clairvoyant import clairvoyant_plan
+from fiveroute.sea.bounds.online_bound import online_bound
 from fiveroute.sea.luck import Luck
-from fiveroute.sea.online_bound import online_bound
 from fiveroute.sea.theatre import Theatre
 from fiveroute.tiers.preplanning import fleet_size_of
 

@@ -3,8 +3,8 @@
     python benchmarks/optimal_policy.py [--missions 20] [--nodes 12] [--share 0.8] [--runs 100]
 
 A mission takes start, destination and law of a scenario of the paper, some nodes that lie together,
-one AUV and a share of its T_max. The exact policy (`fiveroute.sea.optimal_policy`) and five-tier
-have the same luck, expectations and price of a late return. `worth` is data less price by
+one AUV and a share of its T_max. The exact policy (`fiveroute.sea.bounds.optimal_policy`) and
+five-tier have the same luck, expectations and price of a late return. `worth` is data less price by
 the policy's own reckoning, both in shares of all data; the gaps are those to the clairvoyant plans
 of the same runs. The last line has the means.
 """
@@ -15,10 +15,10 @@ from dataclasses import replace
 import numpy as np
 
 from fiveroute.generate import paper_scenario
+from fiveroute.sea.bounds.optimal_policy import OptimalPolicy, Steersman
+from fiveroute.sea.courses.recourse import with_recourse
 from fiveroute.sea.departure import departure_plan
 from fiveroute.sea.luck import Luck
-from fiveroute.sea.optimal_policy import OptimalPolicy, Steersman
-from fiveroute.sea.recourse import with_recourse
 from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Voyage

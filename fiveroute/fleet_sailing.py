@@ -169,7 +169,7 @@ def simulate(
     reserve
         Standard deviations of the remaining time that AUVs keep in hand; 0 is the paper.
     channel
-        What the AUVs talk over, a name in `fiveroute.sea.channel.PRESETS`.
+        What the AUVs talk over, a name in `fiveroute.sea.agents.channel.PRESETS`.
     loss, failures
         Probabilities that a message is lost, and that an AUV fails in mid-mission; without the
         first, messages are lost as the channel loses them.
@@ -195,8 +195,8 @@ def simulate(
     InputError
         If an option makes no sense, or the plan was made for other nodes.
     """
+    from fiveroute.sea.agents.channel import PRESETS
     from fiveroute.sea.campaign import Campaign, sail_campaign
-    from fiveroute.sea.channel import PRESETS
 
     if runs < 1:
         raise InputError("must be at least 1", field="runs", value=runs)

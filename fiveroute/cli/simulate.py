@@ -219,7 +219,7 @@ def _registered(
 
 def _steering(config: dict[str, Any]) -> dict[str, Any]:
     """The arguments of `simulate_fleet` among the options."""
-    from fiveroute.sea.channel import PRESETS
+    from fiveroute.sea.agents.channel import PRESETS
 
     same = ("planner", "reserve", "loss", "failures", "seed", "gap", "log")
     steering = {name: config[name] for name in same}

@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 from fiveroute.generate import paper_scenario
 from fiveroute.instance import Instance
 from fiveroute.routes import Plan, Route
-from fiveroute.sea.auction import assign_by_auction
-from fiveroute.sea.course import Course, Outlook
+from fiveroute.sea.agents.auction import assign_by_auction
+from fiveroute.sea.courses.course import Course, Outlook
+from fiveroute.sea.courses.discarding import discard
+from fiveroute.sea.courses.picking import offers
 from fiveroute.sea.departure import departure_plan
-from fiveroute.sea.discarding import discard
-from fiveroute.sea.picking import offers
 from fiveroute.sea.planners.to_the_letter import ToTheLetter
 from fiveroute.sea.run_result import RunResult
 from fiveroute.sea.simulation import simulate_fleet

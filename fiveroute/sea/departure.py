@@ -10,8 +10,8 @@ so several plans are made.
 Of these, planners without recourse take by rehearsal: each plan is sailed with the same luck by
 whoever will steer, and the one that collects most is taken. The luck of the rehearsals is not
 that of the simulation. The five-tiered planner can leave nodes out and take idle ones in, and
-what its courses are worth is known without sailing (`fiveroute.sea.recourse`): from each plan a
-search goes on for the courses that are worth most, nodes to be visited with luck included.
+what its courses are worth is known without sailing (`fiveroute.sea.courses.recourse`): from each
+plan a search goes on for the courses that are worth most, nodes to be visited with luck included.
 
 The planners that the paper compares with plan in their own ways, clusters by k-means or Voronoi
 cells and routes through them, and rehearse like the others.
@@ -31,9 +31,9 @@ from fiveroute.heuristics.shortest_routes import shortest_routes
 from fiveroute.limits import Clock, Limits
 from fiveroute.problem import TeamOrienteering
 from fiveroute.routes import Plan
-from fiveroute.sea.course import Course
-from fiveroute.sea.option_search import best_options
-from fiveroute.sea.recourse import reconsider, with_recourse
+from fiveroute.sea.courses.course import Course
+from fiveroute.sea.courses.option_search import best_options
+from fiveroute.sea.courses.recourse import reconsider, with_recourse
 from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.theatre import Theatre
 from fiveroute.tiers.actuation import expected_legs

@@ -25,7 +25,7 @@ class Frame(NamedTuple):
     receiver
         The AUV that it is for; None for everybody.
     says
-        Kind of the message, a word such as `report`, see `fiveroute.sea.messages`.
+        Kind of the message, a word such as `report`, see `fiveroute.sea.agents.messages`.
     bits
         Its length.
     """

@@ -21,9 +21,10 @@ from fiveroute.instance import Instance
 from fiveroute.limits import Limits, Progress, ProgressCallback
 from fiveroute.problem import TIME_TOLERANCE
 from fiveroute.routes import Plan
-from fiveroute.sea.channel import PRESETS, Channel
-from fiveroute.sea.clairvoyant import clairvoyant_plan
-from fiveroute.sea.course import Outlook
+from fiveroute.sea.agents.channel import PRESETS, Channel
+from fiveroute.sea.agents.watch import SILENCE
+from fiveroute.sea.bounds.clairvoyant import clairvoyant_plan
+from fiveroute.sea.courses.course import Outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.alone import Alone, sail_alone
 from fiveroute.sea.planners.cbba import Cbba
@@ -38,7 +39,6 @@ from fiveroute.sea.run_result import RunResult, SimulationResult
 from fiveroute.sea.sailed_luck import SailedLuck
 from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Crew, Voyage
-from fiveroute.sea.watch import SILENCE
 
 __all__ = ["PLANNERS", "simulate_fleet"]
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from fiveroute.instance import Instance, Uncertainty
 from fiveroute.limits import Limits
 from fiveroute.problem import TeamOrienteering, completion_rate
-from fiveroute.sea.course import Outlook, Pace, outlook
+from fiveroute.sea.courses.course import Outlook, Pace, outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.sailed_luck import SailedLuck, VehicleModel
 from fiveroute.tiers.actuation import LegLaw, leg_law, uncertainty_of

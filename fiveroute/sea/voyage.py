@@ -16,7 +16,7 @@ from functools import partial
 from typing import Protocol
 
 from fiveroute.problem import TeamOrienteering
-from fiveroute.sea.course import Course, Outlook
+from fiveroute.sea.courses.course import Course, Outlook
 from fiveroute.sea.events import Event, Frame, Kind
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.sailed_luck import SailedLuck

@@ -22,10 +22,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fiveroute.sea.auction import assign_by_auction
-from fiveroute.sea.course import Course, Outlook
-from fiveroute.sea.discarding import discard
-from fiveroute.sea.picking import offers
+from fiveroute.sea.agents.auction import assign_by_auction
+from fiveroute.sea.courses.course import Course, Outlook
+from fiveroute.sea.courses.discarding import discard
+from fiveroute.sea.courses.picking import offers
 
 __all__ = ["Award", "assign_idle_nodes", "coordinate"]
 

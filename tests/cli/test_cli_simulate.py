@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from fiveroute.cli import simulate
-from fiveroute.sea.channel import PRESETS
+from fiveroute.sea.agents.channel import PRESETS
 from fiveroute.sea.simulation import PLANNERS
 
 KEYS = {

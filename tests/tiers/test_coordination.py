@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from fiveroute.instance import Uncertainty
 from fiveroute.problem import TeamOrienteering
-from fiveroute.sea.course import LONGEST_LEG, Course, Outlook, in_hand, outlook
-from fiveroute.sea.discarding import discard
-from fiveroute.sea.picking import offers
+from fiveroute.sea.courses.course import LONGEST_LEG, Course, Outlook, in_hand, outlook
+from fiveroute.sea.courses.discarding import discard
+from fiveroute.sea.courses.picking import offers
 from fiveroute.tiers.actuation import leg_law
 from fiveroute.tiers.coordination import Award, assign_idle_nodes, coordinate
 

@@ -10,11 +10,11 @@ from collections.abc import Collection
 from typing import ClassVar
 
 from fiveroute.routes import Plan, Route
-from fiveroute.sea.course import Course, Outlook
-from fiveroute.sea.discarding import discard
-from fiveroute.sea.recourse import reconsider, with_recourse
+from fiveroute.sea.agents.watch import SILENCE
+from fiveroute.sea.courses.course import Course, Outlook
+from fiveroute.sea.courses.discarding import discard
+from fiveroute.sea.courses.recourse import reconsider, with_recourse
 from fiveroute.sea.voyage import Voyage, course_of
-from fiveroute.sea.watch import SILENCE
 
 __all__ = ["AllKnowing"]
 

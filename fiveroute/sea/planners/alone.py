@@ -12,8 +12,8 @@ import numpy as np
 
 from fiveroute.kernels import kernel
 from fiveroute.routes import Plan
-from fiveroute.sea.course import Outlook, Stops
-from fiveroute.sea.discarding import discard, shed
+from fiveroute.sea.courses.course import Outlook, Stops
+from fiveroute.sea.courses.discarding import discard, shed
 from fiveroute.sea.luck import leg_luck
 from fiveroute.sea.voyage import Voyage, course_of
 from fiveroute.tiers.actuation import LegLaw

@@ -3,8 +3,8 @@
 Every AUV is an agent that knows what it has sensed and what has reached it over the acoustic
 channel. Its route as planned is its first bundle, and not for sale; nodes that the plan leaves out
 or that are discarded under way belong to nobody, and all AUVs bid psi (27) for them, by
-`fiveroute.sea.bundle` and `fiveroute.sea.consensus`. At a node an AUV first plans its own route
-anew over its own and the idle nodes, by `fiveroute.sea.replanning`, and bids for
+`fiveroute.sea.agents.bundle` and `fiveroute.sea.agents.consensus`. At a node an AUV first plans its
+own route anew over its own and the idle nodes, by `fiveroute.sea.courses.replanning`, and bids for
 each node that this picks up what it earns a second there; then it fills its bundle behind its next
 node.
 
@@ -17,7 +17,7 @@ either: two AUVs may both believe to have a node, and what is collected twice is
 is not sailed for before the others have had time to object. A teammate that has not been heard of
 for `silence` seconds, not even through others, is taken to have failed, and its nodes are idle.
 
-References: see `fiveroute.sea.consensus` and `fiveroute.sea.bundle`.
+References: see `fiveroute.sea.agents.consensus` and `fiveroute.sea.agents.bundle`.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.routes import Plan
-from fiveroute.sea.bundle import Bundle
-from fiveroute.sea.channel import Channel, Radio
-from fiveroute.sea.consensus import COLLECTED, HELD, NOBODY, Beliefs, View
-from fiveroute.sea.course import Course, Outlook
-from fiveroute.sea.messages import Message
-from fiveroute.sea.picking import offers
-from fiveroute.sea.replanning import TRIALS, replan
+from fiveroute.sea.agents.bundle import Bundle
+from fiveroute.sea.agents.channel import Channel, Radio
+from fiveroute.sea.agents.consensus import COLLECTED, HELD, NOBODY, Beliefs, View
+from fiveroute.sea.agents.messages import Message
+from fiveroute.sea.agents.watch import SILENCE
+from fiveroute.sea.courses.course import Course, Outlook
+from fiveroute.sea.courses.picking import offers
+from fiveroute.sea.courses.replanning import TRIALS, replan
 from fiveroute.sea.voyage import Voyage, course_of
-from fiveroute.sea.watch import SILENCE
 
 __all__ = ["BEAT", "Cbba"]
 

@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 from fiveroute.heuristics.pick_up import insertions
 from fiveroute.problem import TeamOrienteering
 from fiveroute.routes import Plan
-from fiveroute.sea.agent import Agent
-from fiveroute.sea.channel import Channel, Radio
-from fiveroute.sea.course import Outlook
-from fiveroute.sea.holdings import Holdings
-from fiveroute.sea.messages import Message
-from fiveroute.sea.recourse import with_recourse
+from fiveroute.sea.agents.agent import Agent
+from fiveroute.sea.agents.channel import Channel, Radio
+from fiveroute.sea.agents.holdings import Holdings
+from fiveroute.sea.agents.messages import Message
+from fiveroute.sea.agents.watch import SILENCE
+from fiveroute.sea.courses.course import Outlook
+from fiveroute.sea.courses.recourse import with_recourse
 from fiveroute.sea.voyage import Voyage
-from fiveroute.sea.watch import SILENCE
 
 __all__ = ["FiveTier", "ShortSighted"]
 

@@ -18,7 +18,7 @@ from __future__ import annotations
 import numpy as np
 
 from fiveroute.routes import Route
-from fiveroute.sea.picking import offers
+from fiveroute.sea.courses.picking import offers
 from fiveroute.sea.planners.all_knowing import AllKnowing
 
 __all__ = ["Ftcmp"]

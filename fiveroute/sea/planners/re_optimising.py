@@ -2,14 +2,14 @@
 
 All AUVs know all at once, and all unvisited nodes may go to any of them: whatever the plan said,
 the fleet takes the routes that are best from where it is, by the expected leg times and with the
-reserve kept (`fiveroute.sea.fleet_replanning`). No coordination over messages can expect more from
-what it knows; what remains between this and the clairvoyant plan is the price of not knowing
-the luck to come. It takes seconds a mission.
+reserve kept (`fiveroute.sea.courses.fleet_replanning`). No coordination over messages can expect
+more from what it knows; what remains between this and the clairvoyant plan is the price of not
+knowing the luck to come. It takes seconds a mission.
 """
 
 from __future__ import annotations
 
-from fiveroute.sea.fleet_replanning import replan_fleet
+from fiveroute.sea.courses.fleet_replanning import replan_fleet
 from fiveroute.sea.planners.all_knowing import AllKnowing
 
 __all__ = ["ReOptimising"]

@@ -6,7 +6,7 @@ reconstruction from what the paper says, and no reproduction. The fleet sets out
 cells. At every node all unvisited nodes are shared out anew, to the AUV that passes nearest on
 what it has left of its route, distances being weighted by remaining time (the Voronoi cells of a
 moving fleet); the AUV at the node then plans its whole route over its cell again, by the search of
-`fiveroute.sea.replanning`. With a horizon of some nodes only, or with cells about
+`fiveroute.sea.courses.replanning`. With a horizon of some nodes only, or with cells about
 positions instead of routes, it collects less.
 
 Reference: S. Sun, B. Song, P. Wang, H. Dong, X. Chen, "Real-time mission-motion planner for
@@ -20,8 +20,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from fiveroute.sea.courses.replanning import TRIALS, replan
 from fiveroute.sea.planners.all_knowing import AllKnowing
-from fiveroute.sea.replanning import TRIALS, replan
 
 __all__ = ["Rmmp"]
 
