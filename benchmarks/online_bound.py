@@ -18,7 +18,7 @@ from fiveroute.routes import Plan
 from fiveroute.sea.bounds.clairvoyant import clairvoyant_plan
 from fiveroute.sea.bounds.online_bound import online_bound
 from fiveroute.sea.luck import Luck
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 from fiveroute.tiers.preplanning import fleet_size_of
 
 HEADER = ("scenario", "auvs", "expected", "bound", "clairvoyant", "gap")
@@ -49,16 +49,16 @@ def main() -> None:
 def measure(scenario: int, options: argparse.Namespace) -> tuple[float, ...]:
     instance = paper_scenario(scenario)
     fleet = fleet_size_of(instance, rng=np.random.default_rng((0, scenario)))
-    theatre = Theatre.of(instance, fleet)
+    world = World.of(instance, fleet)
     bound = online_bound(
-        theatre, price=options.price, runs=options.runs, seed=scenario, steps=options.steps,
+        world, price=options.price, runs=options.runs, seed=scenario, steps=options.steps,
         memory=options.memory,
     )  # fmt: skip
     most = bound.completion(options.late)
     expected = most + bound.expected - float(np.mean(bound.runs))
-    lucks = (Luck(theatre.law, scenario, run) for run in range(options.runs))
-    plans = [clairvoyant_plan(theatre.problem, luck, Plan.empty(fleet)) for luck in lucks]
-    best = float(np.mean([theatre.completion(plan.objective(real)) for real, plan in plans]))
+    lucks = (Luck(world.law, scenario, run) for run in range(options.runs))
+    plans = [clairvoyant_plan(world.problem, luck, Plan.empty(fleet)) for luck in lucks]
+    best = float(np.mean([world.completion(plan.objective(real)) for real, plan in plans]))
     return scenario, fleet, expected, most, best, 1.0 - most / best
 
 

@@ -20,8 +20,8 @@ from fiveroute.sea.courses.recourse import with_recourse
 from fiveroute.sea.departure import departure_plan
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Voyage
+from fiveroute.sea.world import World
 
 HEADER = ("mission", "worth", "optimal", "late", "five-tier", "late", "gap", "gap")
 RESERVE = 1.645
@@ -43,19 +43,19 @@ def main() -> None:
 
 
 def measure(number: int, options: argparse.Namespace) -> tuple[float, ...]:
-    theatre = mission(number, options.nodes, options.share)
-    problem = theatre.problem
-    policy = OptimalPolicy(with_recourse(theatre.outlook(RESERVE)))
+    world = mission(number, options.nodes, options.share)
+    problem = world.problem
+    policy = OptimalPolicy(with_recourse(world.outlook(RESERVE)))
     worth = policy.worth(float(problem.budgets[0])) / problem.total_profit
     best, late = [], 0
     for run in range(options.runs):
-        voyage = Voyage(problem, Luck(theatre.law, number, run), (np.inf,))
+        voyage = Voyage(problem, Luck(world.law, number, run), (np.inf,))
         voyage.sail(Steersman(policy, voyage))
         nodes = [event.node for event in voyage.log if event.kind == "collect"]
-        best.append(theatre.completion(sum(problem.profit[node] for node in nodes if node)))
+        best.append(world.completion(sum(problem.profit[node] for node in nodes if node)))
         late += voyage.log[-1].t > problem.budgets[0]
-    plan = departure_plan(theatre, reserve=RESERVE)
-    ours = simulate_fleet(theatre, plan, runs=options.runs, seed=number, gap=True)
+    plan = departure_plan(world, reserve=RESERVE)
+    ours = simulate_fleet(world, plan, runs=options.runs, seed=number, gap=True)
     known = np.mean([run.clairvoyant for run in ours.runs])
     theirs, mine = float(np.mean(best)), float(ours.completions.mean())
     return (
@@ -64,7 +64,7 @@ def measure(number: int, options: argparse.Namespace) -> tuple[float, ...]:
     )  # fmt: skip
 
 
-def mission(number: int, nodes: int, share: float) -> Theatre:
+def mission(number: int, nodes: int, share: float) -> World:
     """One AUV, and nodes that lie around one of a scenario."""
     scenario = paper_scenario(number)
     rng = np.random.default_rng(number)
@@ -72,9 +72,9 @@ def mission(number: int, nodes: int, share: float) -> Theatre:
     centre = spots[rng.integers(len(spots))]
     near = np.argsort(np.hypot(*(spots - centre).T))[: 2 * nodes]
     chosen = [scenario.nodes[k] for k in np.sort(rng.permutation(near)[:nodes])]
-    theatre = Theatre.of(replace(scenario, nodes=tuple(chosen)), 1)
-    problem = theatre.problem
-    return replace(theatre, problem=problem.with_budgets(share * problem.budgets))
+    world = World.of(replace(scenario, nodes=tuple(chosen)), 1)
+    problem = world.problem
+    return replace(world, problem=problem.with_budgets(share * problem.budgets))
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ from fiveroute.sea.run_result import RunResult, SimulationResult
 from fiveroute.words import printable
 
 if TYPE_CHECKING:
-    from fiveroute.sea.theatre import Theatre
+    from fiveroute.sea.world import World
     from fiveroute.view.event_log import RunLog
 
 __all__ = ["FleetRuns", "Pier"]
@@ -36,12 +36,12 @@ class Pier:
     ----------
     plan
         The routes that it sets out with, on its planned legs.
-    theatre
+    world
         What the simulation knows of the mission.
     """
 
     plan: FleetPlan
-    theatre: Theatre
+    world: World
 
     @property
     def routes(self) -> Plan:
@@ -102,7 +102,7 @@ class FleetRuns:
         """Where every AUV was in a run: seconds, x and y in metres, each of shape (any, 3)."""
         from fiveroute.sea.tracks import tracks_of
 
-        return tracks_of(self.pier.theatre, self.plan.voyage.legs, run, self.seed)
+        return tracks_of(self.pier.world, self.plan.voyage.legs, run, self.seed)
 
     def save(self, path: str | PathLike[str], *, force: bool = False) -> None:
         """Write a table, a row a run, whole or not at all.

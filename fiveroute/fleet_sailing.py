@@ -81,7 +81,7 @@ def prepare(
     """
     from fiveroute.sea.departure import departure_plan
     from fiveroute.sea.sailed_luck import VehicleModel
-    from fiveroute.sea.theatre import Theatre
+    from fiveroute.sea.world import World
     from fiveroute.tiers.preplanning import fleet_size_of
 
     if actuation not in get_args(Actuation):
@@ -108,20 +108,18 @@ def prepare(
             field="fleet_size",
             value=fleet_size,
         )
-    theatre = Theatre.of(
-        voyage.instance, size, travel=voyage.travel, out_of_reach=voyage.out_of_reach
-    )
+    world = World.of(voyage.instance, size, travel=voyage.travel, out_of_reach=voyage.out_of_reach)
     if actuation == "vehicle":
         model = VehicleModel.of(voyage, folder or Path())
-        theatre = theatre.sailed_by(model, seed, limits=clock.rest())
+        world = world.sailed_by(model, seed, limits=clock.rest())
     if given is None:
         # Who plans anew at once, and slowly, need not rehearse what it sets out with itself.
         rehearsing = "of-one-mind" if planner == "re-optimising" else planner
         routes = departure_plan(
-            theatre.by_law, rehearsing, reserve=reserve, seed=seed, limits=clock.rest()
+            world.by_law, rehearsing, reserve=reserve, seed=seed, limits=clock.rest()
         )
         given = _rehearsed(voyage, routes, clock.seconds, seed)
-    return Pier(given, theatre)
+    return Pier(given, world)
 
 
 def _rehearsed(voyage: Voyage, routes: Plan, seconds: float, seed: int) -> FleetPlan:
@@ -232,7 +230,7 @@ def simulate(
         "seed": seed,
     }
     result = sail_campaign(
-        Campaign(pier.theatre, pier.routes, runs, how),
+        Campaign(pier.world, pier.routes, runs, how),
         workers=workers,
         limits=clock.rest(),
         progress=progress,

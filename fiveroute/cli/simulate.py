@@ -134,7 +134,7 @@ def command(
         )
         tell_of(pier.plan.voyage)
         result = sail_campaign(
-            Campaign(pier.theatre, pier.routes, choices["runs"], _steering(config)),
+            Campaign(pier.world, pier.routes, choices["runs"], _steering(config)),
             workers=workers,
             scheduler=scheduler,
             journal=registry.journal if registry else None,
@@ -155,7 +155,7 @@ def command(
     else:
         for line in str(runs).splitlines():
             tell(line)
-    no_plan_exists = is_proved_infeasible(runs.pier.theatre.problem)
+    no_plan_exists = is_proved_infeasible(runs.pier.world.problem)
     if no_plan_exists:
         note("the destination is out of reach in time; AUVs come home late")
     ctx.exit(130 if outcome.interrupted else int(no_plan_exists))

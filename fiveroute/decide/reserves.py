@@ -15,7 +15,7 @@ from fiveroute.limits import Limits, ProgressCallback
 from fiveroute.paths.voyage import Voyage
 from fiveroute.sea.campaign import Campaign, sail_campaign
 from fiveroute.sea.departure import departure_plan
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 from fiveroute.tiers.preplanning import fleet_size_of
 
 __all__ = ["sweep_reserves"]
@@ -61,14 +61,12 @@ def sweep_reserves(
     """
     rng = np.random.default_rng(seed)
     size = fleet_size or fleet_size_of(voyage.instance, voyage.travel, rng=rng)
-    theatre = Theatre.of(
-        voyage.instance, size, travel=voyage.travel, out_of_reach=voyage.out_of_reach
-    )
+    world = World.of(voyage.instance, size, travel=voyage.travel, out_of_reach=voyage.out_of_reach)
 
     def row(reserve: float, limits: Limits) -> Row:
-        routes = departure_plan(theatre, planner, reserve=reserve, seed=seed, limits=limits)
+        routes = departure_plan(world, planner, reserve=reserve, seed=seed, limits=limits)
         how = {"planner": planner, "reserve": reserve, "seed": seed}
-        campaign = Campaign(theatre, routes, runs, how)
+        campaign = Campaign(world, routes, runs, how)
         result = sail_campaign(campaign, workers=workers, limits=limits)
         theta = np.array([run.completion for run in result.runs])
         late = sum(run.late_returns for run in result.runs)

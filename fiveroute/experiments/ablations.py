@@ -22,7 +22,7 @@ from fiveroute.mission import plan_mission
 from fiveroute.routes import Plan
 from fiveroute.sea.departure import departure_plan
 from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 
 __all__ = [
     "FLEET",
@@ -192,12 +192,12 @@ def sail_variants(
     """Sail all variants, the whole planner first, scenario by scenario."""
     for scenario in range(1, scenarios + 1):
         instance = paper_scenario(scenario)
-        theatre = Theatre.of(instance, FLEET)
+        world = World.of(instance, FLEET)
         plans: dict[tuple[float, str], Plan] = {}
         for variant in (WHOLE, *variants):
-            plan = _plan_of(variant, instance, theatre, plans, seed)
+            plan = _plan_of(variant, instance, world, plans, seed)
             result = simulate_fleet(
-                theatre,
+                world,
                 plan,
                 planner=variant.planner,
                 runs=runs,
@@ -213,7 +213,7 @@ def sail_variants(
 def _plan_of(
     variant: Variant,
     instance: Instance,
-    theatre: Theatre,
+    world: World,
     plans: dict[tuple[float, str], Plan],
     seed: int,
 ) -> Plan:
@@ -223,7 +223,7 @@ def _plan_of(
     key = variant.reserve, variant.departing_as
     if key not in plans:
         reserve, planner = key
-        plans[key] = departure_plan(theatre, planner, reserve=reserve, seed=seed)
+        plans[key] = departure_plan(world, planner, reserve=reserve, seed=seed)
     return plans[key]
 
 

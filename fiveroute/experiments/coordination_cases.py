@@ -24,8 +24,8 @@ from fiveroute.sea.departure import departure_plan
 from fiveroute.sea.planners.to_the_letter import ToTheLetter
 from fiveroute.sea.run_result import RunResult
 from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Voyage
+from fiveroute.sea.world import World
 
 __all__ = ["CASES", "Case", "Round", "Sailed", "busiest_auction", "sail_case"]
 
@@ -79,7 +79,7 @@ class Case:
     ----------
     scenario
         Number of the paper scenario.
-    instance, theatre, plan
+    instance, world, plan
         The mission, and the routes with which the fleet sets out.
     alone, together
         All runs without and with tier 5.
@@ -87,7 +87,7 @@ class Case:
 
     scenario: int
     instance: Instance
-    theatre: Theatre
+    world: World
     plan: Plan
     alone: tuple[RunResult, ...]
     together: tuple[RunResult, ...]
@@ -95,7 +95,7 @@ class Case:
     @property
     def planned(self) -> float:
         """Completion rate of the plan."""
-        return self.theatre.completion(self.plan.objective(self.theatre.problem))
+        return self.world.completion(self.plan.objective(self.world.problem))
 
     @property
     def gains(self) -> NDArray[np.float64]:
@@ -113,13 +113,13 @@ class Case:
 def sail_case(scenario: int, fleet_size: int, runs: int, seed: int = 0) -> Case:
     """Sail a scenario with and without coordination."""
     instance = paper_scenario(scenario)
-    theatre = Theatre.of(instance, fleet_size)
-    plan = departure_plan(theatre, seed=seed)
+    world = World.of(instance, fleet_size)
+    plan = departure_plan(world, seed=seed)
     alone, together = (
-        simulate_fleet(theatre, plan, planner=planner, runs=runs, seed=seed * 1000 + scenario).runs
+        simulate_fleet(world, plan, planner=planner, runs=runs, seed=seed * 1000 + scenario).runs
         for planner in ("no-coordination", "five-tier")
     )
-    return Case(scenario, instance, theatre, plan, alone, together)
+    return Case(scenario, instance, world, plan, alone, together)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -144,17 +144,17 @@ class Round:
     won: tuple[int, ...]
 
 
-def busiest_auction(theatre: Theatre, plan: Plan, runs: int, seed: int = 0) -> tuple[Round, ...]:
+def busiest_auction(world: World, plan: Plan, runs: int, seed: int = 0) -> tuple[Round, ...]:
     """The rounds of the auction with most rivalry, of all that a fleet holds in some runs.
 
     The fleet follows the fifth tier as the paper prints it (`to-the-letter`), for which all idle
     nodes are auctioned at every event. Nothing is returned if nobody ever bids.
     """
     best: tuple[Round, ...] = ()
-    view = theatre.outlook(reserve=0.0)
+    view = world.outlook(reserve=0.0)
     for run in range(runs):
-        never = (float("inf"),) * theatre.problem.fleet_size
-        voyage = Voyage(theatre.problem, theatre.luck(seed, run), never)
+        never = (float("inf"),) * world.problem.fleet_size
+        voyage = Voyage(world.problem, world.luck(seed, run), never)
         crew = _Listener(voyage, view, plan)
         voyage.sail(crew)
         best = max([best, *crew.auctions], key=_rivalry)

@@ -88,10 +88,10 @@ def write_report(
     case = cases[-1]
     run = case.together[case.typical]
     title = f"Scenario {case.scenario}: a run with coordination, hour by hour"
-    save_figure(timeline(case.theatre.problem, run.events, title), folder / "timeline.png")
+    save_figure(timeline(case.world.problem, run.events, title), folder / "timeline.png")
     loose = slack_plan(case.instance, _SLACK, fleet_size=len(case.plan.routes))
     title = f"Scenario {case.scenario}: an auction among AUVs with time to spare"
-    rounds = busiest_auction(case.theatre, loose, _RUNS)
+    rounds = busiest_auction(case.world, loose, _RUNS)
     save_figure(auction_rounds(rounds, title), folder / "auction.png")
     write_text_atomically(folder / "report.md", report(cases, rows, runs), force)
 

@@ -25,7 +25,7 @@ from fiveroute.sea.departure import departure_plan
 from fiveroute.sea.run_result import RunResult, SimulationResult
 from fiveroute.sea.sailed_luck import VehicleModel
 from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 from fiveroute.tiers.preplanning import fleet_size_of
 from fiveroute.vehicle.fit import Estimate, Fit
 
@@ -192,16 +192,16 @@ def depart(cell: Cell) -> tuple[Cell, Departure]:
         rng = np.random.default_rng((cell.seed, cell.scenario))
         fleet = fleet_size_of(instance, rng=rng)
     fit = _fit(cell.scenario, cell.luck) if cell.actuation == "vehicle" else None
-    theatre = _theatre(cell.scenario, fleet, fit)
-    plan = departure_plan(theatre.by_law, cell.planner, reserve=cell.reserve, seed=cell.seed)
-    planned = theatre.completion(plan.objective(theatre.problem))
+    world = _world(cell.scenario, fleet, fit)
+    plan = departure_plan(world.by_law, cell.planner, reserve=cell.reserve, seed=cell.seed)
+    planned = world.completion(plan.objective(world.problem))
     return cell, Departure(plan, planned, fit)
 
 
 def sail_run(cell: Cell, departure: Departure, run: int) -> tuple[Cell, RunResult]:
     """Sail one run of a cell; it is told with its run."""
     result = simulate_fleet(
-        _theatre(cell.scenario, len(departure.plan.routes), departure.fit),
+        _world(cell.scenario, len(departure.plan.routes), departure.fit),
         departure.plan,
         planner=cell.planner,
         runs=1,
@@ -215,18 +215,18 @@ def sail_run(cell: Cell, departure: Departure, run: int) -> tuple[Cell, RunResul
 
 
 @lru_cache(maxsize=8)
-def _theatre(scenario: int, fleet: int, fit: Fit | None) -> Theatre:
+def _world(scenario: int, fleet: int, fit: Fit | None) -> World:
     """A scenario as a fleet meets it."""
     instance = paper_scenario(scenario)
-    theatre = Theatre.of(instance, fleet)
-    return theatre if fit is None else theatre.expecting(_vehicle(instance), fit)
+    world = World.of(instance, fleet)
+    return world if fit is None else world.expecting(_vehicle(instance), fit)
 
 
 @cache
 def _fit(scenario: int, seed: int) -> Fit:
     """What is to be expected of a vehicle, whatever the fleet."""
     instance = paper_scenario(scenario)
-    return Theatre.of(instance, 1).fitted(_vehicle(instance), seed)
+    return World.of(instance, 1).fitted(_vehicle(instance), seed)
 
 
 def _vehicle(instance: Instance) -> VehicleModel:

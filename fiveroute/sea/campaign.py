@@ -17,7 +17,7 @@ from fiveroute.routes import Plan
 from fiveroute.sea.journal import Journal
 from fiveroute.sea.run_result import RunResult, SimulationResult
 from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 from fiveroute.sharing import share_out
 
 __all__ = ["Campaign", "sail_campaign"]
@@ -29,7 +29,7 @@ class Campaign:
 
     Parameters
     ----------
-    theatre, plan
+    world, plan
         The mission, and the routes with which the fleet sets out.
     runs
         Number of runs.
@@ -37,7 +37,7 @@ class Campaign:
         Further arguments of `simulate_fleet`.
     """
 
-    theatre: Theatre
+    world: World
     plan: Plan
     runs: int
     options: Mapping[str, Any]
@@ -49,7 +49,7 @@ class Campaign:
 
     def sail(self, run: int) -> RunResult:
         """One of the runs."""
-        result = simulate_fleet(self.theatre, self.plan, runs=1, first_run=run, **self.options)
+        result = simulate_fleet(self.world, self.plan, runs=1, first_run=run, **self.options)
         return result.runs[0]
 
 
@@ -79,7 +79,7 @@ def sail_campaign(
     progress
         Told how many runs are done.
     """
-    clock, theatre = (limits or Limits()).start(), campaign.theatre
+    clock, world = (limits or Limits()).start(), campaign.world
     runs = {} if journal is None else {run.run: run for run in journal.runs()}
     missing = [(run,) for run in range(campaign.runs) if run not in runs]
     with closing(share_out(campaign.sail, missing, workers=workers, scheduler=scheduler)) as sailed:
@@ -94,8 +94,8 @@ def sail_campaign(
                 break
     return SimulationResult(
         campaign.planner,
-        theatre.problem.fleet_size,
-        theatre.completion(campaign.plan.objective(theatre.problem)),
+        world.problem.fleet_size,
+        world.completion(campaign.plan.objective(world.problem)),
         tuple(runs[number] for number in sorted(runs)),
         clock.seconds,
     )

@@ -35,7 +35,7 @@ from fiveroute.sea.courses.course import Course
 from fiveroute.sea.courses.option_search import best_options
 from fiveroute.sea.courses.recourse import reconsider, with_recourse
 from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 from fiveroute.tiers.actuation import expected_legs
 
 __all__ = ["CAUTIONS", "departure_plan", "rehearse"]
@@ -50,7 +50,7 @@ _REHEARSALS = 1 << 40  # added to the seed
 
 
 def departure_plan(
-    theatre: Theatre,
+    world: World,
     planner: str = "five-tier",
     *,
     reserve: float = 1.645,
@@ -62,7 +62,7 @@ def departure_plan(
 
     Parameters
     ----------
-    theatre
+    world
         The mission.
     planner
         Who will steer, see `fiveroute.sea.simulation.PLANNERS`.
@@ -83,16 +83,16 @@ def departure_plan(
         if plans and clock.expired:
             break
         if isinstance(choice, tuple):
-            plans.append(_cautious_plan(theatre, *choice, rng))
+            plans.append(_cautious_plan(world, *choice, rng))
         else:
-            plans.append(_cluster_plan(theatre, planner, choice, np.random.default_rng(seed)))
+            plans.append(_cluster_plan(world, planner, choice, np.random.default_rng(seed)))
     if planner == "five-tier":
-        return _with_options(theatre, plans, reserve, rng, clock)
-    return rehearse(theatre, plans, planner, reserve=reserve, runs=runs, seed=seed, clock=clock)
+        return _with_options(world, plans, reserve, rng, clock)
+    return rehearse(world, plans, planner, reserve=reserve, runs=runs, seed=seed, clock=clock)
 
 
 def rehearse(
-    theatre: Theatre,
+    world: World,
     plans: Sequence[Plan],
     planner: str,
     *,
@@ -116,19 +116,19 @@ def rehearse(
             break
         luck = seed + _REHEARSALS
         result = simulate_fleet(
-            theatre, plan, planner=planner, runs=runs, reserve=reserve, seed=luck, log=False
+            world, plan, planner=planner, runs=runs, reserve=reserve, seed=luck, log=False
         )
         if result.completions.mean() > most:
             best, most = plan, float(result.completions.mean())
     return best
 
 
-def _cautious_plan(theatre: Theatre, slack: float, home: float, rng: np.random.Generator) -> Plan:
+def _cautious_plan(world: World, slack: float, home: float, rng: np.random.Generator) -> Plan:
     """The best plan for expected legs with slack, and long reserves for the way home."""
-    mean, variance = expected_legs(theatre.law)
+    mean, variance = expected_legs(world.law)
     legs = slack * mean
     legs[:, -1] += home * np.sqrt(variance[:, -1])
-    known = theatre.problem
+    known = world.problem
     problem = TeamOrienteering(legs, known.service, known.profit, known.budgets)
     if shortest_routes(problem) is None:
         return Plan.empty(known.fleet_size)
@@ -136,20 +136,20 @@ def _cautious_plan(theatre: Theatre, slack: float, home: float, rng: np.random.G
 
 
 def _with_options(
-    theatre: Theatre, plans: Sequence[Plan], reserve: float, rng: np.random.Generator, clock: Clock
+    world: World, plans: Sequence[Plan], reserve: float, rng: np.random.Generator, clock: Clock
 ) -> Plan:
     """What is expected of the courses that are worth most, options included, near any plan."""
-    view = with_recourse(theatre.outlook(reserve))
-    budgets = theatre.problem.budgets
+    view = with_recourse(world.outlook(reserve))
+    budgets = world.problem.budgets
     found = [best_options(view, plan.routes, budgets, _OPTION_TRIALS, rng, clock) for plan in plans]
     options, _ = max(found, key=lambda pair: pair[1])
     courses = [Course(0, 0.0, 0.0, t, r) for t, r in zip(budgets.tolist(), options, strict=True)]
     return Plan(tuple(reconsider(view, course, ())[0].route for course in courses))
 
 
-def _cluster_plan(theatre: Theatre, planner: str, slack: float, rng: np.random.Generator) -> Plan:
+def _cluster_plan(world: World, planner: str, slack: float, rng: np.random.Generator) -> Plan:
     """Clusters by k-means with the best route over each, or Voronoi cells with a short one."""
-    known, points = theatre.problem, theatre.points
+    known, points = world.problem, world.points
     problem = TeamOrienteering(slack * known.travel, known.service, known.profit, known.budgets)
     if planner == "rmmp":
         cells = voronoi(points, known.fleet_size, rng, "lloyd")

@@ -37,8 +37,8 @@ from fiveroute.sea.planners.rmmp import Rmmp
 from fiveroute.sea.planners.to_the_letter import ToTheLetter
 from fiveroute.sea.run_result import RunResult, SimulationResult
 from fiveroute.sea.sailed_luck import SailedLuck
-from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Crew, Voyage
+from fiveroute.sea.world import World
 
 __all__ = ["PLANNERS", "simulate_fleet"]
 
@@ -63,7 +63,7 @@ compares with, a peer that agrees without an auction, and five to learn from, se
 
 
 def simulate_fleet(
-    mission: Instance | Theatre,
+    mission: Instance | World,
     plan: Plan,
     *,
     planner: str = "five-tier",
@@ -84,7 +84,7 @@ def simulate_fleet(
     Parameters
     ----------
     mission
-        The mission; an instance is sailed in straight lines, see `Theatre.of`.
+        The mission; an instance is sailed in straight lines, see `World.of`.
     plan
         The routes with which the fleet sets out.
     planner
@@ -115,11 +115,11 @@ def simulate_fleet(
     InputError
         If an option or the plan makes no sense.
     """
-    theatre = Theatre.of(mission, len(plan.routes)) if isinstance(mission, Instance) else mission
-    _check_options(theatre, plan, planner, runs, reserve, failures)
+    world = World.of(mission, len(plan.routes)) if isinstance(mission, Instance) else mission
+    _check_options(world, plan, planner, runs, reserve, failures)
     sea = _Sea(
-        theatre,
-        theatre.outlook(reserve),
+        world,
+        world.outlook(reserve),
         channel if loss is None else replace(channel, loss=loss),
         failures,
         seed,
@@ -131,17 +131,15 @@ def simulate_fleet(
             progress(Progress(clock.seconds, message=f"run {len(done)} of {runs}"))
         if clock.expired:
             break
-    planned = theatre.completion(plan.objective(theatre.problem))
-    return SimulationResult(
-        planner, theatre.problem.fleet_size, planned, tuple(done), clock.seconds
-    )
+    planned = world.completion(plan.objective(world.problem))
+    return SimulationResult(planner, world.problem.fleet_size, planned, tuple(done), clock.seconds)
 
 
 @dataclass(frozen=True, slots=True)
 class _Sea:
     """What all runs have in common."""
 
-    theatre: Theatre
+    world: World
     view: Outlook
     channel: Channel
     failures: float
@@ -149,10 +147,10 @@ class _Sea:
 
 
 def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool, gap: bool) -> RunResult:
-    problem, luck = sea.theatre.problem, sea.theatre.luck(sea.seed, run)
+    problem, luck = sea.world.problem, sea.world.luck(sea.seed, run)
     fails = failure_times(problem.budgets, sea.failures, sea.seed, run)
     if planner == "no-coordination" and isinstance(luck, Luck) and not (log or gap):
-        return _run_alone(sea.theatre, sea.view, plan, luck, fails)
+        return _run_alone(sea.world, sea.view, plan, luck, fails)
     voyage = Voyage(problem, luck, fails)
     crew = _crew(sea, voyage, plan, planner)
     voyage.sail(crew)
@@ -164,9 +162,9 @@ def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool, gap: bool) ->
             arrivals[event.auv] = event.t
     result = RunResult(
         run,
-        sea.theatre.completion(collected),
+        sea.world.completion(collected),
         tuple(arrivals),
-        _late(sea.theatre, arrivals),
+        _late(sea.world, arrivals),
         len(nodes) - len(set(nodes)),
     )
     if log:
@@ -175,7 +173,7 @@ def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool, gap: bool) ->
     if isinstance(luck, SailedLuck):
         result = replace(result, **_safety(luck, voyage))
     elif gap:
-        result = replace(result, clairvoyant=_best(sea.theatre, voyage, luck))
+        result = replace(result, clairvoyant=_best(sea.world, voyage, luck))
     if isinstance(crew, FiveTier | Cbba):
         sent, delivered = crew.radio.sent, crew.radio.delivered
         takeovers = crew.false_takeovers
@@ -198,14 +196,14 @@ def _safety(luck: SailedLuck, voyage: Voyage) -> dict[str, Any]:
     }
 
 
-def _best(theatre: Theatre, voyage: Voyage, luck: Luck) -> float:
+def _best(world: World, voyage: Voyage, luck: Luck) -> float:
     """Completion rate of the clairvoyant plan."""
     routes: list[list[int]] = [[] for _ in voyage.vessels]
     for event in voyage.log:
         if event.kind == "collect" and event.node is not None:
             routes[event.auv].append(event.node)
-    real, plan = clairvoyant_plan(theatre.problem, luck, Plan.of(routes))
-    return theatre.completion(plan.objective(real))
+    real, plan = clairvoyant_plan(world.problem, luck, Plan.of(routes))
+    return world.completion(plan.objective(real))
 
 
 def _crew(sea: _Sea, voyage: Voyage, plan: Plan, planner: str) -> Crew:
@@ -216,7 +214,7 @@ def _crew(sea: _Sea, voyage: Voyage, plan: Plan, planner: str) -> Crew:
             sea.view,
             plan,
             channel=sea.channel,
-            points=sea.theatre.points,
+            points=sea.world.points,
             rng=np.random.default_rng((sea.seed, voyage.luck.run, 2)),
             silence=SILENCE if sea.failures > 0.0 else math.inf,
         )
@@ -235,28 +233,28 @@ def failure_times(
 
 
 def _run_alone(
-    theatre: Theatre, view: Outlook, plan: Plan, luck: Luck, fails: tuple[float, ...]
+    world: World, view: Outlook, plan: Plan, luck: Luck, fails: tuple[float, ...]
 ) -> RunResult:
     """Without coordination and without a log: every AUV in the kernel."""
-    problem, key = theatre.problem, luck.key
+    problem, key = world.problem, luck.key
     collected, arrivals = 0.0, []
     for route, budget, fail in zip(plan.routes, problem.budgets.tolist(), fails, strict=True):
         stops = np.array([0, *route, problem.destination])
-        data, arrival = sail_alone(theatre.law, key, view, stops, budget, fail)
+        data, arrival = sail_alone(world.law, key, view, stops, budget, fail)
         collected += data
         arrivals.append(arrival)
-    completion = theatre.completion(collected)
-    return RunResult(luck.run, completion, tuple(arrivals), _late(theatre, arrivals))
+    completion = world.completion(collected)
+    return RunResult(luck.run, completion, tuple(arrivals), _late(world, arrivals))
 
 
-def _late(theatre: Theatre, arrivals: list[float]) -> int:
+def _late(world: World, arrivals: list[float]) -> int:
     """Number of AUVs that arrived after their time."""
-    times, allowed = np.array(arrivals), theatre.problem.budgets * (1.0 + TIME_TOLERANCE)
+    times, allowed = np.array(arrivals), world.problem.budgets * (1.0 + TIME_TOLERANCE)
     return int(((times > allowed) & np.isfinite(times)).sum())
 
 
 def _check_options(
-    theatre: Theatre, plan: Plan, planner: str, runs: int, reserve: float, failures: float
+    world: World, plan: Plan, planner: str, runs: int, reserve: float, failures: float
 ) -> None:
     if planner not in PLANNERS:
         raise InputError(
@@ -270,6 +268,6 @@ def _check_options(
         raise InputError("must be finite and not negative", field="reserve", value=reserve)
     if not 0.0 <= failures <= 1.0:
         raise InputError("a probability lies between 0 and 1", field="failures", value=failures)
-    wrong = [v for v in check(theatre.problem, plan) if v.kind != "over_budget"]
+    wrong = [v for v in check(world.problem, plan) if v.kind != "over_budget"]
     if wrong:
         raise InputError("must be a plan of this mission", field="plan", value=wrong[0])

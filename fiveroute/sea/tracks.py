@@ -16,7 +16,7 @@ from fiveroute.paths.leg_table import LegTable
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.run_result import RunResult
 from fiveroute.sea.sailed_luck import SailedLuck
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 
 __all__ = ["EVERY", "tracks_of"]
 
@@ -26,14 +26,12 @@ EVERY = 10.0
 """Seconds between two positions of a vehicle's track."""
 
 
-def tracks_of(
-    theatre: Theatre, legs: LegTable | None, run: RunResult, seed: int
-) -> tuple[Floats, ...]:
+def tracks_of(world: World, legs: LegTable | None, run: RunResult, seed: int) -> tuple[Floats, ...]:
     """The track of every AUV of a run: seconds, x and y in metres, each of shape (any, 3).
 
     Parameters
     ----------
-    theatre
+    world
         The mission as it was simulated.
     legs
         The planned paths; None for straight lines.
@@ -42,7 +40,7 @@ def tracks_of(
     seed
         Seed of the simulation.
     """
-    luck = theatre.luck(seed, run.run)
+    luck = world.luck(seed, run.run)
     fails = dict.fromkeys(range(len(run.legs)), math.inf)
     fails |= {event.auv: event.t for event in run.events if event.kind == "fail"}
     tracks = []
@@ -52,7 +50,7 @@ def tracks_of(
             if isinstance(luck, SailedLuck):
                 pieces.append(_sailed(luck, i, j, begin))
             else:
-                path = theatre.points[[i, j]] if legs is None else legs.track(i, j)
+                path = world.points[[i, j]] if legs is None else legs.track(i, j)
                 pieces.append(_along(path, begin, luck, i, j))
         tracks.append(_until(np.concatenate(pieces), fails[auv]))
     return tuple(tracks)

@@ -9,20 +9,20 @@ from fiveroute.routes import Plan
 from fiveroute.sea.events import Event
 from fiveroute.sea.run_result import RunResult
 from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 
 
 @pytest.fixture(scope="module")
 def case() -> Case:
     """A small mission, so loosely planned that there is something to gain."""
     instance = generate(nodes=14, seed=3)
-    theatre = Theatre.of(instance, 2)
+    world = World.of(instance, 2)
     plan = Plan.of([[1, 2, 3], [4, 5]])
     alone, together = (
-        simulate_fleet(theatre, plan, planner=planner, runs=4).runs
+        simulate_fleet(world, plan, planner=planner, runs=4).runs
         for planner in ("no-coordination", "five-tier")
     )
-    return Case(1, instance, theatre, plan, alone, together)
+    return Case(1, instance, world, plan, alone, together)
 
 
 def test_what_became_of_a_plan() -> None:
@@ -40,12 +40,12 @@ def test_the_run_shown_is_the_one_nearest_to_the_mean(case: Case) -> None:
     assert gains.mean() > 0.0
     assert abs(gains[case.typical] - gains.mean()) == np.abs(gains - gains.mean()).min()
     assert case.planned == pytest.approx(
-        case.theatre.problem.collected([1, 2, 3, 4, 5]) / case.theatre.problem.total_profit
+        case.world.problem.collected([1, 2, 3, 4, 5]) / case.world.problem.total_profit
     )
 
 
 def test_an_auction_gives_each_node_once_and_each_auv_one_a_round(case: Case) -> None:
-    rounds = busiest_auction(case.theatre, case.plan, 3)
+    rounds = busiest_auction(case.world, case.plan, 3)
     given = []
     for r in rounds:
         assert r.psi.shape == (len(r.auvs), len(r.nodes))
@@ -59,5 +59,5 @@ def test_an_auction_gives_each_node_once_and_each_auv_one_a_round(case: Case) ->
 
 
 def test_no_auction_where_nothing_is_idle() -> None:
-    theatre = Theatre.of(generate(nodes=2, seed=3), 1)
-    assert busiest_auction(theatre, Plan.of([[1, 2]]), 1) == ()
+    world = World.of(generate(nodes=2, seed=3), 1)
+    assert busiest_auction(world, Plan.of([[1, 2]]), 1) == ()

@@ -10,18 +10,18 @@ from fiveroute.experiments.coordination_report import FILES, report, summary, wr
 from fiveroute.generate import generate
 from fiveroute.routes import Plan
 from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 
 
 def case_of(fleet_size: int) -> Case:
     instance = generate(nodes=14, seed=3)
-    theatre = Theatre.of(instance, fleet_size)
+    world = World.of(instance, fleet_size)
     plan = Plan.of([range(1 + 2 * auv, 3 + 2 * auv) for auv in range(fleet_size)])
     alone, together = (
-        simulate_fleet(theatre, plan, planner=planner, runs=3).runs
+        simulate_fleet(world, plan, planner=planner, runs=3).runs
         for planner in ("no-coordination", "five-tier")
     )
-    return Case(7, instance, theatre, plan, alone, together)
+    return Case(7, instance, world, plan, alone, together)
 
 
 @pytest.fixture(scope="module")

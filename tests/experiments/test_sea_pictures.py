@@ -16,7 +16,7 @@ from fiveroute.experiments.sea_pictures import (
 from fiveroute.generate import generate
 from fiveroute.routes import Plan
 from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 
 
 def texts(axis: Axes) -> list[str]:
@@ -45,10 +45,10 @@ def test_no_auction_is_no_heat_map() -> None:
 
 
 def test_a_timeline_tells_every_node_and_mark() -> None:
-    theatre = Theatre.of(generate(nodes=14, seed=3), 2)
+    world = World.of(generate(nodes=14, seed=3), 2)
     plan = Plan.of([[1, 2, 3], [4, 5]])
-    (run,) = simulate_fleet(theatre, plan, runs=1).runs
-    (axis,) = timeline(theatre.problem, run.events, "t").axes
+    (run,) = simulate_fleet(world, plan, runs=1).runs
+    (axis,) = timeline(world.problem, run.events, "t").axes
     collected = [str(event.node) for event in run.events if event.kind == "collect"]
     assert sorted(texts(axis)) == sorted(collected)
     for kind, mark in (("discard", "x"), ("pick_up", "+"), ("manoeuvre", "d"), ("arrive", "*")):
@@ -59,12 +59,12 @@ def test_a_timeline_tells_every_node_and_mark() -> None:
 
 def test_a_case_shows_plan_both_runs_and_all_gains() -> None:
     instance = generate(nodes=14, seed=3)
-    theatre, plan = Theatre.of(instance, 2), Plan.of([[1, 2, 3], [4, 5]])
+    world, plan = World.of(instance, 2), Plan.of([[1, 2, 3], [4, 5]])
     alone, together = (
-        simulate_fleet(theatre, plan, planner=planner, runs=3).runs
+        simulate_fleet(world, plan, planner=planner, runs=3).runs
         for planner in ("no-coordination", "five-tier")
     )
-    case = Case(1, instance, theatre, plan, alone, together)
+    case = Case(1, instance, world, plan, alone, together)
     planned, without, with_it, gains = coordination_case(case).axes
     for axis, theta in (
         (planned, case.planned),

@@ -6,14 +6,14 @@ import pytest
 from fiveroute.generate import generate
 from fiveroute.heuristics.fleet_search import fleet_search
 from fiveroute.routes import Plan
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 
 
 @pytest.fixture(scope="session")
-def theatre() -> Theatre:
-    return Theatre.of(generate(nodes=24, seed=3), 2)
+def world() -> World:
+    return World.of(generate(nodes=24, seed=3), 2)
 
 
 @pytest.fixture(scope="session")
-def plan(theatre: Theatre) -> Plan:
-    return fleet_search(theatre.problem, rng=np.random.default_rng(1), iterations=4000)
+def plan(world: World) -> Plan:
+    return fleet_search(world.problem, rng=np.random.default_rng(1), iterations=4000)

@@ -18,7 +18,7 @@ from fiveroute.routes import Plan
 from fiveroute.sea.campaign import Campaign, sail_campaign
 from fiveroute.sea.run_result import SimulationResult
 from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 
 
 def mission() -> Instance:
@@ -33,7 +33,7 @@ def mission() -> Instance:
 
 def campaign(runs: int = 12, **options: Any) -> Campaign:
     plan = Plan.of([[1, 2, 3, 4], [8, 7, 6]])
-    return Campaign(Theatre.of(mission()), plan, runs, {"seed": 3, **options})
+    return Campaign(World.of(mission()), plan, runs, {"seed": 3, **options})
 
 
 def same(one: SimulationResult, other: SimulationResult) -> bool:
@@ -41,7 +41,7 @@ def same(one: SimulationResult, other: SimulationResult) -> bool:
 
 
 def test_the_numbers_do_not_depend_on_the_workers() -> None:
-    whole = simulate_fleet(campaign().theatre, campaign().plan, runs=12, seed=3)
+    whole = simulate_fleet(campaign().world, campaign().plan, runs=12, seed=3)
     assert same(sail_campaign(campaign()), whole)
     assert same(sail_campaign(campaign(), workers=2), whole)
 

@@ -17,7 +17,7 @@ from fiveroute.sea.campaign import Campaign, sail_campaign
 from fiveroute.sea.journal import Journal
 from fiveroute.sea.run_result import RunResult
 from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 
 PROGRAM = """
 import sys, time
@@ -26,21 +26,21 @@ from fiveroute.sea.campaign import Campaign, sail_campaign
 from fiveroute.sea.journal import Journal
 from fiveroute.generate import generate
 from fiveroute.routes import Plan
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 
-campaign = Campaign(Theatre.of(generate(nodes=8, seed=1), 2), Plan(((1, 2, 3), (4, 5))), 12, {})
+campaign = Campaign(World.of(generate(nodes=8, seed=1), 2), Plan(((1, 2, 3), (4, 5))), 12, {})
 sail_campaign(campaign, journal=Journal(Path(sys.argv[1])), progress=lambda _: time.sleep(0.5))
 """
 
 
 def campaign(runs: int = 12) -> Campaign:
-    theatre = Theatre.of(generate(nodes=8, seed=1), 2)
-    return Campaign(theatre, Plan(((1, 2, 3), (4, 5))), runs, {})
+    world = World.of(generate(nodes=8, seed=1), 2)
+    return Campaign(world, Plan(((1, 2, 3), (4, 5))), runs, {})
 
 
 def some_runs(count: int = 3) -> tuple[RunResult, ...]:
     whole = campaign()
-    return simulate_fleet(whole.theatre, whole.plan, runs=count, failures=0.5, seed=3).runs
+    return simulate_fleet(whole.world, whole.plan, runs=count, failures=0.5, seed=3).runs
 
 
 def test_runs_come_back_as_they_were(tmp_path: Path) -> None:

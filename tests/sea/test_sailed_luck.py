@@ -18,7 +18,7 @@ from fiveroute.paths.voyage import Voyage
 from fiveroute.routes import Plan
 from fiveroute.sea.sailed_luck import SailedLuck, VehicleModel
 from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 from fiveroute.vehicle.sailed_track import Outcome, least_clearance
 from fiveroute.vehicle.tracking import sail_track
 from fiveroute.vehicle.true_ocean import Forecast
@@ -30,8 +30,8 @@ def model() -> VehicleModel:
 
 
 @pytest.fixture(scope="module")
-def sailed(theatre: Theatre, model: VehicleModel) -> Theatre:
-    return theatre.sailed_by(model)
+def sailed(world: World, model: VehicleModel) -> World:
+    return world.sailed_by(model)
 
 
 def test_a_leg_is_the_vehicles_track_among_all_obstacles(model: VehicleModel) -> None:
@@ -97,7 +97,7 @@ def test_a_leg_without_a_path_leads_nowhere(model: VehicleModel) -> None:
     assert not SailedLuck(empty, 0, 0).leg(0, 1).arrives
 
 
-def test_the_law_expects_what_the_vehicle_does(sailed: Theatre, model: VehicleModel) -> None:
+def test_the_law_expects_what_the_vehicle_does(sailed: World, model: VehicleModel) -> None:
     law, planned = sailed.law, sailed.problem.travel
     assert 0.2 < law.drift < 0.4, "of legs that are late together, above the stated 0.2"
     assert 1.0 < law.planned[0, 5] / planned[0, 5] < 1.15
@@ -108,13 +108,13 @@ def test_the_law_expects_what_the_vehicle_does(sailed: Theatre, model: VehicleMo
     assert took / len(lucks) == pytest.approx(mean, rel=0.12)
 
 
-def test_a_fit_ends_when_asked(theatre: Theatre, model: VehicleModel) -> None:
-    fit = model.fit(theatre.problem.travel, walks=1, limits=Limits(time=0.0))
+def test_a_fit_ends_when_asked(world: World, model: VehicleModel) -> None:
+    fit = model.fit(world.problem.travel, walks=1, limits=Limits(time=0.0))
     assert 2 <= fit.legs <= 5 * 4
 
 
-def test_a_fit_of_a_round_trip(theatre: Theatre, model: VehicleModel) -> None:
-    planned = theatre.problem.travel.copy()
+def test_a_fit_of_a_round_trip(world: World, model: VehicleModel) -> None:
+    planned = world.problem.travel.copy()
     planned[0, -1] = 0.0
     planned[5, -1] = math.inf
     fit = model.fit(planned, limits=Limits(time=0.0))
@@ -122,7 +122,7 @@ def test_a_fit_of_a_round_trip(theatre: Theatre, model: VehicleModel) -> None:
     assert math.isfinite(fit.delay.value)
 
 
-def test_a_leg_home_is_late_as_rarely_as_expected(sailed: Theatre, model: VehicleModel) -> None:
+def test_a_leg_home_is_late_as_rarely_as_expected(sailed: World, model: VehicleModel) -> None:
     """The probability that it takes longer than it did is spread evenly from 0 to 1."""
     view, lucks = sailed.outlook(1.645), [SailedLuck(model, 99, run) for run in range(30)]
     times = view.step * np.arange(view.late.shape[1])
@@ -136,7 +136,7 @@ def test_a_leg_home_is_late_as_rarely_as_expected(sailed: Theatre, model: Vehicl
 
 
 @pytest.mark.parametrize("planner", ["five-tier", "no-coordination", "rmmp"])
-def test_every_planner_sails_the_same_legs(planner: str, sailed: Theatre, plan: Plan) -> None:
+def test_every_planner_sails_the_same_legs(planner: str, sailed: World, plan: Plan) -> None:
     result = simulate_fleet(sailed, plan, planner=planner, runs=2, seed=9)
     assert result.collisions == 0
     assert result.min_clearance is not None
@@ -153,16 +153,16 @@ def test_every_planner_sails_the_same_legs(planner: str, sailed: Theatre, plan: 
         assert noted == sum(len(luck.leg(i, j).moments) for legs in run.legs for i, j, _ in legs)
 
 
-def test_who_is_swept_away_is_lost(theatre: Theatre, model: VehicleModel, plan: Plan) -> None:
+def test_who_is_swept_away_is_lost(world: World, model: VehicleModel, plan: Plan) -> None:
     grid = model.forecast.grid
     stream = grid._replace(uv=grid.uv + np.array([-1.5, 0.0]))
     swept = replace(model, forecast=replace(model.forecast, grid=stream, uncertainty=Uncertainty()))
-    result = simulate_fleet(replace(theatre, model=swept), plan, runs=1)
-    assert result.lost == theatre.problem.fleet_size
+    result = simulate_fleet(replace(world, model=swept), plan, runs=1)
+    assert result.lost == world.problem.fleet_size
     assert result.collisions == 0
     assert result.runs[0].arrivals == (math.inf, math.inf)
     assert [event.kind for event in result.runs[0].events].count("fail") == result.lost
 
 
-def test_no_clairvoyant_where_a_vehicle_sails(sailed: Theatre, plan: Plan) -> None:
+def test_no_clairvoyant_where_a_vehicle_sails(sailed: World, plan: Plan) -> None:
     assert simulate_fleet(sailed, plan, runs=1, gap=True).online_gap is None

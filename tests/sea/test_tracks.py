@@ -13,25 +13,25 @@ from fiveroute.routes import Plan
 from fiveroute.sea.run_result import RunResult
 from fiveroute.sea.sailed_luck import VehicleModel
 from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.tracks import EVERY, tracks_of
+from fiveroute.sea.world import World
 
 SEED = 4
 
 
 @pytest.fixture(scope="module", params=["abstraction", "vehicle"])
-def sailed(request: pytest.FixtureRequest, theatre: Theatre) -> Theatre:
+def sailed(request: pytest.FixtureRequest, world: World) -> World:
     if request.param == "abstraction":
-        return theatre
+        return world
     model = VehicleModel.of(Voyage.straight(generate(nodes=24, seed=3)))
-    return replace(theatre, model=model)
+    return replace(world, model=model)
 
 
-def one_run(sailed: Theatre, plan: Plan, failures: float = 0.0) -> RunResult:
+def one_run(sailed: World, plan: Plan, failures: float = 0.0) -> RunResult:
     return simulate_fleet(sailed, plan, runs=1, seed=SEED, failures=failures).runs[0]
 
 
-def test_a_track_is_where_the_log_says(sailed: Theatre, plan: Plan) -> None:
+def test_a_track_is_where_the_log_says(sailed: World, plan: Plan) -> None:
     run = one_run(sailed, plan)
     for auv, track in enumerate(tracks_of(sailed, None, run, SEED)):
         assert (np.diff(track[:, 0]) >= 0.0).all()
@@ -44,7 +44,7 @@ def test_a_track_is_where_the_log_says(sailed: Theatre, plan: Plan) -> None:
                 assert np.hypot(*(np.array(there) - sailed.points[event.node])) <= 21.0
 
 
-def test_a_vehicle_is_seen_every_few_seconds(sailed: Theatre, plan: Plan) -> None:
+def test_a_vehicle_is_seen_every_few_seconds(sailed: World, plan: Plan) -> None:
     run = one_run(sailed, plan)
     (track, *_) = tracks_of(sailed, None, run, SEED)
     if sailed.model is None:
@@ -56,7 +56,7 @@ def test_a_vehicle_is_seen_every_few_seconds(sailed: Theatre, plan: Plan) -> Non
     assert (moved[steps > 1.0] < 2.0 * steps[steps > 1.0]).all()  # 1 m/s and the current
 
 
-def test_the_track_of_who_fails_ends_there(sailed: Theatre, plan: Plan) -> None:
+def test_the_track_of_who_fails_ends_there(sailed: World, plan: Plan) -> None:
     run = one_run(sailed, plan, failures=1.0)
     failed = {event.auv: event.t for event in run.events if event.kind == "fail"}
     assert failed

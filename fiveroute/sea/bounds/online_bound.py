@@ -52,7 +52,7 @@ from fiveroute.sea.bounds.online_value import (
     usage,
 )
 from fiveroute.sea.luck import Luck
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 from fiveroute.tiers.actuation import overruns
 
 __all__ = ["OnlineBound", "Pilot", "node_prices", "online_bound"]
@@ -98,7 +98,7 @@ class OnlineBound:
 
 
 def online_bound(
-    theatre: Theatre,
+    world: World,
     *,
     price: float = 0.3,
     runs: int = 5,
@@ -111,7 +111,7 @@ def online_bound(
 
     Parameters
     ----------
-    theatre
+    world
         A mission with equal budgets whose legs follow a law.
     price
         c, as a share of all data. Any is valid; which is best depends on how many may be late.
@@ -128,22 +128,22 @@ def online_bound(
     InputError
         If budgets differ, a vehicle sails the legs, or a leg may take less than a step.
     """
-    _check(theatre, steps)
-    fine = price * theatre.problem.total_profit
-    pilot = Pilot(theatre, chart(theatre, steps, memory), fine, node_prices(theatre, fine))
-    lucks = (Luck(theatre.law, seed, run) for run in range(first_run, first_run + runs))
+    _check(world, steps)
+    fine = price * world.problem.total_profit
+    pilot = Pilot(world, chart(world, steps, memory), fine, node_prices(world, fine))
+    lucks = (Luck(world.law, seed, run) for run in range(first_run, first_run + runs))
     return OnlineBound(
         price,
-        theatre.problem.fleet_size,
-        theatre.completion(pilot.expected),
-        tuple(theatre.completion(pilot.most(luck)) for luck in lucks),
+        world.problem.fleet_size,
+        world.completion(pilot.expected),
+        tuple(world.completion(pilot.most(luck)) for luck in lucks),
     )
 
 
-def node_prices(theatre: Theatre, fine: float) -> Floats:
+def node_prices(world: World, fine: float) -> Floats:
     """Prices of all vertices for which sum_i pi_i + M V_0 is about least."""
-    profit = theatre.problem.profit
-    sea = chart(theatre, _STEPS, _MEMORY, to_nearest=True)
+    profit = world.problem.profit
+    sea = chart(world, _STEPS, _MEMORY, to_nearest=True)
     value, choice = sea.new_values()
 
     def look(prices: Floats) -> tuple[float, Floats, Floats]:
@@ -151,7 +151,7 @@ def node_prices(theatre: Theatre, fine: float) -> Floats:
         visits, late = usage(sea, choice)
         return value[0, -1, 0], np.array([visits @ profit - fine * late]), visits[None]
 
-    return _least(look, _FIRST_PRICE * profit, theatre)[1]
+    return _least(look, _FIRST_PRICE * profit, world)[1]
 
 
 class Pilot:
@@ -159,7 +159,7 @@ class Pilot:
 
     Parameters
     ----------
-    theatre
+    world
         The mission.
     sea
         Its chart.
@@ -169,9 +169,9 @@ class Pilot:
         pi of every vertex, shape (n + 2,).
     """
 
-    def __init__(self, theatre: Theatre, sea: Chart, fine: float, prices: Floats) -> None:
-        self.theatre, self.sea, self.fine, self.prices = theatre, sea, fine, prices
-        problem = theatre.problem
+    def __init__(self, world: World, sea: Chart, fine: float, prices: Floats) -> None:
+        self.world, self.sea, self.fine, self.prices = world, sea, fine, prices
+        problem = world.problem
         self.value, _ = sea.new_values()
         self.best, self.choice = sea.new_values()
         gain = problem.profit - prices
@@ -182,21 +182,21 @@ class Pilot:
     @property
     def expected(self) -> float:
         """Bound on the mean of data - c late, without any luck."""
-        return float(self.prices.sum() + self.theatre.problem.fleet_size * self.value[0, -1, 0])
+        return float(self.prices.sum() + self.world.problem.fleet_size * self.value[0, -1, 0])
 
     def most(self, luck: Luck) -> float:
         """Bound on the taxed data of all plans in a run."""
-        return _least(partial(self._look, self.legs(luck)), self.prices, self.theatre)[0]
+        return _least(partial(self._look, self.legs(luck)), self.prices, self.world)[0]
 
     def legs(self, luck: Luck) -> Ints:
         """Steps that every leg takes, rounded down."""
-        problem = self.theatre.problem
+        problem = self.world.problem
         step = float(problem.allowed[0]) / (self.sea.late.shape[1] - 1)
         legs: Ints = np.maximum((luck.matrix() + problem.service) / step, 1.0).astype(np.int64)
         return legs
 
     def _look(self, legs: Ints, prices: Floats) -> tuple[float, Floats, Floats]:
-        problem = self.theatre.problem
+        problem = self.world.problem
         look_behind(
             self.sea, legs, problem.profit - prices, self.fine, self.value, self.tax,
             self.best, self.choice,
@@ -213,7 +213,7 @@ class Pilot:
         """The best ng-route by way of a first vertex; it ends where time does."""
         i, k, s, j = 0, self.sea.late.shape[1] - 1, 0, first
         route = []
-        while j != self.theatre.problem.destination:
+        while j != self.world.problem.destination:
             route.append(j)
             k, s, i = k - int(legs[i, j]), int(self.sea.carry[i, j, s]), j
             if k < 0:
@@ -226,7 +226,7 @@ class Pilot:
         i, k, s, worth = 0, self.sea.late.shape[1] - 1, 0, 0.0
         for j in route:
             then, s = k - legs[i, j], self.sea.carry[i, j, s]
-            worth += float(self.theatre.problem.profit[j] + self.tax[i, j, k, s])
+            worth += float(self.world.problem.profit[j] + self.tax[i, j, k, s])
             if then < 0:
                 return worth  # V is -c there: the fine is paid back as tax
             worth -= float(self.value[j, then, s])
@@ -234,13 +234,13 @@ class Pilot:
         return worth - self.fine * float(self.sea.late[i, k])
 
 
-def _least(look: Look, prices: Floats, theatre: Theatre) -> tuple[float, Floats]:
+def _least(look: Look, prices: Floats, world: World) -> tuple[float, Floats]:
     """Lower sum_i pi_i + M best(pi), any value of which is a bound; return it and the prices.
 
     best is the maximum over all routes of worth less prices of visits; the known routes model it,
     and prices move within a box about the best so far.
     """
-    problem = theatre.problem
+    problem = world.problem
     width = _FIRST_BOX * float(problem.profit.mean())
     program = Program(Limits().start())
     program.add_columns(np.ones(len(prices)), 0.0, np.inf)
@@ -265,15 +265,15 @@ def _least(look: Look, prices: Floats, theatre: Theatre) -> tuple[float, Floats]
     return bound, centre
 
 
-def _check(theatre: Theatre, steps: int) -> None:
-    problem = theatre.problem
-    if theatre.model is not None:
+def _check(world: World, steps: int) -> None:
+    problem = world.problem
+    if world.model is not None:
         raise InputError("is known only for legs that follow (12)", field="model")
     if not problem.has_equal_budgets:
         raise InputError("must be equal", field="budgets", value=problem.budgets.tolist())
     step = float(problem.allowed[0]) / steps
     for j in range(1, problem.n + 1):
-        longer = overruns(theatre.law, j, np.array([step - problem.service[j]]))[:-1, 0]
+        longer = overruns(world.law, j, np.array([step - problem.service[j]]))[:-1, 0]
         if np.delete(longer, j).min() < 1.0 - 1e-12:
             raise InputError(
                 "a leg may take less than a step; take more", field="steps", value=steps

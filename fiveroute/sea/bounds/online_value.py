@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
 from fiveroute.models.branch_price.completion import carried, nearest_nodes
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 from fiveroute.tiers.actuation import expected_legs, overruns
 
 __all__ = ["Chart", "chart", "expectations", "look_ahead", "look_behind", "usage"]
@@ -75,12 +75,12 @@ class Chart(NamedTuple):
         return np.zeros(shape), np.zeros(shape, np.int16)
 
 
-def chart(theatre: Theatre, steps: int, memory: int, *, to_nearest: bool = False) -> Chart:
+def chart(world: World, steps: int, memory: int, *, to_nearest: bool = False) -> Chart:
     """The law of all legs in steps.
 
     Parameters
     ----------
-    theatre
+    world
         A mission with equal budgets.
     steps
         K. A leg of less than a step counts as one.
@@ -89,7 +89,7 @@ def chart(theatre: Theatre, steps: int, memory: int, *, to_nearest: bool = False
     to_nearest
         Whether legs are rounded to the nearest step instead of down: V is then near, but no bound.
     """
-    problem, law = theatre.problem, theatre.law
+    problem, law = world.problem, world.law
     horizon = float(problem.allowed[0])
     times = np.linspace(0.0, horizon + horizon / steps, steps + 2)
     size = problem.n + 2

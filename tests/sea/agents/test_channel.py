@@ -11,8 +11,8 @@ from fiveroute.sea.agents.channel import PRESETS, SOUND_SPEED, Bursts, Channel, 
 from fiveroute.sea.agents.messages import Accept, Bid, Call, Message, Report, Wish
 from fiveroute.sea.events import Frame, arrivals_of
 from fiveroute.sea.luck import Luck
-from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Voyage
+from fiveroute.sea.world import World
 
 
 @dataclass(slots=True)
@@ -38,43 +38,43 @@ class Stay:
         pass
 
 
-def fleet(theatre: Theatre, channel: Channel, ears: Ears, size: int = 3) -> tuple[Voyage, Radio]:
-    problem = theatre.problem.with_budgets([18_000.0] * size)
-    voyage = Voyage(problem, Luck(theatre.law, 1, 0), (math.inf,) * size)
-    return voyage, Radio(voyage, channel, theatre.points, np.random.default_rng(3), ears)
+def fleet(world: World, channel: Channel, ears: Ears, size: int = 3) -> tuple[Voyage, Radio]:
+    problem = world.problem.with_budgets([18_000.0] * size)
+    voyage = Voyage(problem, Luck(world.law, 1, 0), (math.inf,) * size)
+    return voyage, Radio(voyage, channel, world.points, np.random.default_rng(3), ears)
 
 
-def test_a_message_takes_its_bits_and_the_way_of_sound(theatre: Theatre) -> None:
+def test_a_message_takes_its_bits_and_the_way_of_sound(world: World) -> None:
     ears = Ears()
-    voyage, radio = fleet(theatre, Channel(bit_rate=100.0), ears)
+    voyage, radio = fleet(world, Channel(bit_rate=100.0), ears)
     radio.send(0.0, Accept(0, 2, 1, 5))
     voyage.vessels[2].at = voyage.vessels[2].target = 7
-    distance = np.hypot(*(theatre.points[7] - theatre.points[0]))
-    voyage.sail(Stay(theatre.problem.destination))
+    distance = np.hypot(*(world.points[7] - world.points[0]))
+    voyage.sail(Stay(world.problem.destination))
     ((t, auv, message),) = ears.heard
     assert (auv, message) == (2, Accept(0, 2, 1, 5))
     assert t == pytest.approx(68.0 / 100.0 + distance / SOUND_SPEED)
 
 
-def test_everybody_hears_what_is_for_everybody_but_the_sender(theatre: Theatre) -> None:
+def test_everybody_hears_what_is_for_everybody_but_the_sender(world: World) -> None:
     ears = Ears()
-    voyage, radio = fleet(theatre, Channel(), ears)
+    voyage, radio = fleet(world, Channel(), ears)
     radio.send(0.0, Wish(1, None, frozenset({2})))
-    voyage.sail(Stay(theatre.problem.destination))
+    voyage.sail(Stay(world.problem.destination))
     assert sorted(auv for _, auv, _ in ears.heard) == [0, 2]
     assert (radio.sent, radio.delivered) == (1, 2)
 
 
-def test_the_log_pairs_who_speaks_with_who_hears(theatre: Theatre) -> None:
+def test_the_log_pairs_who_speaks_with_who_hears(world: World) -> None:
     ears = Ears()
-    voyage, radio = fleet(theatre, Channel(loss=0.4), ears)
+    voyage, radio = fleet(world, Channel(loss=0.4), ears)
     radio.send(0.0, Wish(1, None, frozenset({2})))
     for number in range(20):
         radio.send(0.0, Accept(0, 2, number, 5))
-    voyage.sail(Stay(theatre.problem.destination))
+    voyage.sail(Stay(world.problem.destination))
     sent = [event.frame for event in voyage.log if event.kind == "send"]
     assert sent[0] == Frame(0, 0, 2, "accept", 68)
-    assert sent[1] == Frame(1, 1, None, "wish", 36 + theatre.problem.n)
+    assert sent[1] == Frame(1, 1, None, "wish", 36 + world.problem.n)
     assert [frame.number for frame in sent if frame] == list(range(21))
     arrivals = arrivals_of(voyage.log)
     heard = [(t, auv) for told in arrivals.values() for auv, t in told.items()]
@@ -82,23 +82,23 @@ def test_the_log_pairs_who_speaks_with_who_hears(theatre: Theatre) -> None:
     assert 0 < len(heard) < 21
 
 
-def test_an_auv_sends_in_its_turns_only(theatre: Theatre) -> None:
-    voyage, radio = fleet(theatre, Channel(), Ears())
+def test_an_auv_sends_in_its_turns_only(world: World) -> None:
+    voyage, radio = fleet(world, Channel(), Ears())
     for auv in (2, 0, 0, 1):
         radio.send(0.0, Accept(auv, (auv + 1) % 3, 1, 5))
-    voyage.sail(Stay(theatre.problem.destination))
+    voyage.sail(Stay(world.problem.destination))
     sent = [event for event in voyage.log if event.kind == "send"]
     assert [event.auv for event in sent] == [0, 1, 2, 0]
     turns = [0.0, radio.slot, 2.0 * radio.slot, radio.cycle]
     assert [event.t for event in sent] == pytest.approx(turns)
 
 
-def test_nobody_is_heard_out_of_reach(theatre: Theatre) -> None:
+def test_nobody_is_heard_out_of_reach(world: World) -> None:
     ears = Ears()
-    voyage, radio = fleet(theatre, Channel(reach=100.0), ears)
+    voyage, radio = fleet(world, Channel(reach=100.0), ears)
     voyage.vessels[2].at = voyage.vessels[2].target = 7
     radio.send(0.0, Wish(0, None, frozenset()))
-    voyage.sail(Stay(theatre.problem.destination))
+    voyage.sail(Stay(world.problem.destination))
     assert [auv for _, auv, _ in ears.heard] == [1]
 
 
@@ -110,20 +110,20 @@ def test_nobody_is_heard_out_of_reach(theatre: Theatre) -> None:
         (Channel(bursts=Bursts(0.05, 0.25, 0.9)), 0.9 / 6.0),
     ],
 )
-def test_as_much_is_lost_as_stated(theatre: Theatre, channel: Channel, share: float) -> None:
-    _, radio = fleet(theatre, channel, Ears())
+def test_as_much_is_lost_as_stated(world: World, channel: Channel, share: float) -> None:
+    _, radio = fleet(world, channel, Ears())
     lost = np.array([radio._is_lost(0, 1) for _ in range(20_000)])
     assert lost.mean() == pytest.approx(share, abs=0.02)
     if channel.bursts is not None:
         assert lost[1:][lost[:-1]].mean() > 3.0 * lost.mean()
 
 
-def test_delays_may_reorder(theatre: Theatre) -> None:
+def test_delays_may_reorder(world: World) -> None:
     ears = Ears()
-    voyage, radio = fleet(theatre, Channel(jitter=300.0), ears)
+    voyage, radio = fleet(world, Channel(jitter=300.0), ears)
     for number in range(8):
         radio.send(0.0, Accept(0, 1, number, 5))
-    voyage.sail(Stay(theatre.problem.destination))
+    voyage.sail(Stay(world.problem.destination))
     order = [m.transfer for _, _, m in ears.heard if isinstance(m, Accept)]
     assert sorted(order) == list(range(8)) != order
 

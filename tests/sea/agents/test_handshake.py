@@ -27,8 +27,8 @@ from fiveroute.sea.agents.watch import SILENCE
 from fiveroute.sea.courses.course import outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.five_tier import FiveTier
-from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Voyage
+from fiveroute.sea.world import World
 
 NONE: frozenset[int] = frozenset()
 
@@ -36,15 +36,15 @@ NONE: frozenset[int] = frozenset()
 class Fleet:
     """Three agents at the start, with much time; AUV 0 keeps node 5."""
 
-    def __init__(self, theatre: Theatre) -> None:
-        problem = theatre.problem.with_budgets([60_000.0] * 3)
-        self.voyage = Voyage(problem, Luck(theatre.law, 1, 0), (math.inf,) * 3)
+    def __init__(self, world: World) -> None:
+        problem = world.problem.with_budgets([60_000.0] * 3)
+        self.voyage = Voyage(problem, Luck(world.law, 1, 0), (math.inf,) * 3)
         self.crew = FiveTier(
             self.voyage,
-            outlook(problem, theatre.law, 1.645),
+            outlook(problem, world.law, 1.645),
             Plan.of([[1], [2], [3]]),
             channel=Channel(),
-            points=theatre.points,
+            points=world.points,
             rng=np.random.default_rng(0),
         )
         for agent in self.agents:
@@ -75,8 +75,8 @@ class Fleet:
 
 
 @pytest.fixture
-def fleet(theatre: Theatre) -> Fleet:
-    return Fleet(theatre)
+def fleet(world: World) -> Fleet:
+    return Fleet(world)
 
 
 def test_a_node_changes_hands_in_three_steps(fleet: Fleet) -> None:

@@ -15,7 +15,7 @@ from fiveroute.sea.bounds.online_bound import Pilot, node_prices, online_bound
 from fiveroute.sea.bounds.online_value import Chart, chart
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 
 STEPS, PRICE = 16, 2.0
 
@@ -46,13 +46,13 @@ def optimum(sea: Chart, profit: list[float], fleet: int, steps: int) -> float:
 @pytest.mark.parametrize("seed", [1, 2, 3])
 @pytest.mark.parametrize("fleet", [1, 2])
 def test_no_policy_beats_it(seed: int, fleet: int) -> None:
-    theatre = Theatre.of(generate(nodes=4, seed=seed), fleet)
-    problem = theatre.problem.with_budgets(np.full(fleet, 9000.0))
-    theatre = replace(theatre, problem=problem)
-    sea = chart(theatre, STEPS, 3)
+    world = World.of(generate(nodes=4, seed=seed), fleet)
+    problem = world.problem.with_budgets(np.full(fleet, 9000.0))
+    world = replace(world, problem=problem)
+    sea = chart(world, STEPS, 3)
     known = optimum(sea, problem.profit.tolist(), fleet, STEPS)
-    pilot = Pilot(theatre, sea, PRICE, node_prices(theatre, PRICE))
-    runs = [pilot.most(Luck(theatre.law, seed, run)) for run in range(40)]
+    pilot = Pilot(world, sea, PRICE, node_prices(world, PRICE))
+    runs = [pilot.most(Luck(world.law, seed, run)) for run in range(40)]
     error = float(np.std(runs)) / len(runs) ** 0.5
     assert max(runs) <= pilot.expected + 1e-9
     assert pilot.expected >= known - 1e-9
@@ -61,26 +61,26 @@ def test_no_policy_beats_it(seed: int, fleet: int) -> None:
 
 def test_without_luck_it_bounds_plans_and_is_near_them() -> None:
     calm = Uncertainty(drift=0.0, manoeuvres_per_km=0.0)
-    theatre = Theatre.of(generate(nodes=12, seed=3), 2, uncertainty=calm)
-    problem = theatre.problem.with_budgets([8000.0, 8000.0])
+    world = World.of(generate(nodes=12, seed=3), 2, uncertainty=calm)
+    problem = world.problem.with_budgets([8000.0, 8000.0])
     plan = fleet_search(problem, rng=np.random.default_rng(1), iterations=4000)
-    bound = online_bound(replace(theatre, problem=problem), price=2.0, runs=1, steps=900)
+    bound = online_bound(replace(world, problem=problem), price=2.0, runs=1, steps=900)
     assert plan.objective(problem) < problem.total_profit
-    best = theatre.completion(plan.objective(problem))
+    best = world.completion(plan.objective(problem))
     assert best - 1e-9 <= bound.runs[0] <= min(bound.expected + 1e-9, best + 0.08)
 
 
 def test_a_planner_pays_no_tax_on_average_and_never_beats_the_bound(
-    theatre: Theatre, plan: Plan
+    world: World, plan: Plan
 ) -> None:
     fine, runs = 8.0, 40
-    pilot = Pilot(theatre, chart(theatre, 900, 2), fine, node_prices(theatre, fine))
+    pilot = Pilot(world, chart(world, 900, 2), fine, node_prices(world, fine))
     taxes = []
-    for run in simulate_fleet(theatre, plan, runs=runs, reserve=0.8).runs:
-        luck = Luck(theatre.law, 0, run.run)
+    for run in simulate_fleet(world, plan, runs=runs, reserve=0.8).runs:
+        luck = Luck(world.law, 0, run.run)
         routes = [tuple(to for _, to, _ in legs[:-1]) for legs in run.legs]
         taxed = sum(pilot.taxed(pilot.legs(luck), route) for route in routes)
-        data = sum(theatre.problem.collected(route) for route in routes)
+        data = sum(world.problem.collected(route) for route in routes)
         taxes.append(data - fine * run.late_returns - taxed)
         if run.run < 4:
             assert taxed <= pilot.most(luck) + 1e-9
@@ -89,15 +89,15 @@ def test_a_planner_pays_no_tax_on_average_and_never_beats_the_bound(
     assert -3.0 * error - 0.2 <= np.mean(taxes) <= 3.0 * error
 
 
-def test_more_luck_is_the_same_luck(theatre: Theatre) -> None:
-    both = online_bound(theatre, runs=2, seed=4, steps=600, memory=1)
-    second = online_bound(theatre, runs=1, first_run=1, seed=4, steps=600, memory=1)
+def test_more_luck_is_the_same_luck(world: World) -> None:
+    both = online_bound(world, runs=2, seed=4, steps=600, memory=1)
+    second = online_bound(world, runs=1, first_run=1, seed=4, steps=600, memory=1)
     assert both.runs[1:] == second.runs
 
 
-def test_what_it_cannot_bound(theatre: Theatre) -> None:
+def test_what_it_cannot_bound(world: World) -> None:
     with pytest.raises(InputError, match="less than a step"):
-        online_bound(theatre, steps=20)
-    unequal = replace(theatre, problem=theatre.problem.with_budgets([9000.0, 8000.0]))
+        online_bound(world, steps=20)
+    unequal = replace(world, problem=world.problem.with_budgets([9000.0, 8000.0]))
     with pytest.raises(InputError, match="must be equal"):
         online_bound(unequal)

@@ -15,14 +15,14 @@ from fiveroute.sea.bounds.online_value import (
     usage,
 )
 from fiveroute.sea.luck import Luck
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 
 STEPS, PRICE = 60, 3.0
 
 
 @pytest.fixture(scope="module")
-def few() -> Theatre:
-    return Theatre.of(generate(nodes=5, seed=8), 1)
+def few() -> World:
+    return World.of(generate(nodes=5, seed=8), 1)
 
 
 def worth(sea: Chart, gain: tuple[float, ...], steps: int) -> float:
@@ -44,7 +44,7 @@ def worth(sea: Chart, gain: tuple[float, ...], steps: int) -> float:
     return best(0, steps, frozenset())
 
 
-def test_with_the_memory_of_all_nodes_it_is_what_the_definition_says(few: Theatre) -> None:
+def test_with_the_memory_of_all_nodes_it_is_what_the_definition_says(few: World) -> None:
     gain = few.problem.profit
     expected = worth(chart(few, STEPS, 1), tuple(gain.tolist()), STEPS)
     values = []
@@ -57,22 +57,22 @@ def test_with_the_memory_of_all_nodes_it_is_what_the_definition_says(few: Theatr
     assert values[0] >= values[1] - 1e-9 >= values[2] - 2e-9
 
 
-def test_laws_keep_their_means_but_for_rounding_down(theatre: Theatre) -> None:
+def test_laws_keep_their_means_but_for_rounding_down(world: World) -> None:
     steps = 900
-    sea = chart(theatre, steps, 0)
-    step = float(theatre.problem.allowed[0]) / steps
-    real = np.mean([Luck(theatre.law, 5, run).matrix() for run in range(2000)], axis=0)
+    sea = chart(world, steps, 0)
+    step = float(world.problem.allowed[0]) / steps
+    real = np.mean([Luck(world.law, 5, run).matrix() for run in range(2000)], axis=0)
     for i, j in ((0, 3), (4, 9), (20, 1)):
         law = sea.share[sea.begin[i, j] :][: sea.width[i, j]]
         assert law.sum() == pytest.approx(1.0, abs=1e-9)
         mean = float(law @ (sea.first[i, j] + np.arange(len(law)))) * step
-        taken = real[i, j] + theatre.problem.service[j]
+        taken = real[i, j] + world.problem.service[j]
         assert mean == pytest.approx(taken - 0.5 * step, rel=0.03)
 
 
-def test_usage_is_what_the_value_is_made_of(theatre: Theatre) -> None:
-    gain = 0.4 * theatre.problem.profit
-    sea = chart(theatre, 300, 2)
+def test_usage_is_what_the_value_is_made_of(world: World) -> None:
+    gain = 0.4 * world.problem.profit
+    sea = chart(world, 300, 2)
     value, choice = sea.new_values()
     look_ahead(sea, gain, PRICE, value, choice)
     visits, late = usage(sea, choice)
@@ -80,14 +80,14 @@ def test_usage_is_what_the_value_is_made_of(theatre: Theatre) -> None:
     assert visits @ gain - PRICE * late == pytest.approx(value[0, -1, 0], abs=1e-6)
 
 
-def test_who_pays_for_his_luck_gains_nothing_by_knowing_it(theatre: Theatre) -> None:
-    gain = 0.4 * theatre.problem.profit
-    sea = chart(theatre, 300, 2)
+def test_who_pays_for_his_luck_gains_nothing_by_knowing_it(world: World) -> None:
+    gain = 0.4 * world.problem.profit
+    sea = chart(world, 300, 2)
     value, choice = sea.new_values()
     look_ahead(sea, gain, PRICE, value, choice)
     expected = expectations(sea, gain, PRICE, value, np.inf)
     for run in range(3):
-        legs = np.maximum(Luck(theatre.law, 1, run).matrix() / 60.0, 1.0).astype(np.int64)
+        legs = np.maximum(Luck(world.law, 1, run).matrix() / 60.0, 1.0).astype(np.int64)
         best, way = sea.new_values()
         look_behind(sea, legs, gain, PRICE, value, expected, best, way)
         assert best[0, -1, 0] == pytest.approx(value[0, -1, 0], abs=1e-9)

@@ -14,13 +14,13 @@ from fiveroute.sea.bounds.optimal_policy import OptimalPolicy, Steersman
 from fiveroute.sea.courses.course import Outlook
 from fiveroute.sea.courses.recourse import look_ahead, next_stop, with_recourse
 from fiveroute.sea.luck import Luck
-from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Voyage
+from fiveroute.sea.world import World
 
 
-def mission(nodes: int, budget: float, seed: int) -> Theatre:
-    theatre = Theatre.of(generate(nodes=nodes, seed=seed), 1)
-    return replace(theatre, problem=theatre.problem.with_budgets([budget]))
+def mission(nodes: int, budget: float, seed: int) -> World:
+    world = World.of(generate(nodes=nodes, seed=seed), 1)
+    return replace(world, problem=world.problem.with_budgets([budget]))
 
 
 def worth_of(view: Outlook, order: tuple[int, ...], budget: float) -> float:
@@ -46,11 +46,11 @@ def test_with_one_node_there_is_one_order() -> None:
 
 @pytest.mark.parametrize("seed", [1, 5])
 def test_it_gets_what_it_promises(seed: int) -> None:
-    theatre = mission(6, 9000.0, seed)
-    view = with_recourse(theatre.outlook(0.5))
-    policy, problem, got = OptimalPolicy(view), theatre.problem, []
+    world = mission(6, 9000.0, seed)
+    view = with_recourse(world.outlook(0.5))
+    policy, problem, got = OptimalPolicy(view), world.problem, []
     for run in range(600):
-        voyage = Voyage(problem, Luck(theatre.law, seed, run), (np.inf,))
+        voyage = Voyage(problem, Luck(world.law, seed, run), (np.inf,))
         voyage.sail(Steersman(policy, voyage))
         nodes = [event.node for event in voyage.log if event.kind == "collect"]
         late = voyage.log[-1].t > problem.budgets[0]
@@ -60,10 +60,10 @@ def test_it_gets_what_it_promises(seed: int) -> None:
 
 
 def test_the_bound_of_all_policies_is_above_it() -> None:
-    theatre = mission(6, 9000.0, 2)
-    view = with_recourse(theatre.outlook(1.0))
-    prices = node_prices(theatre, view.price)
-    pilot = Pilot(theatre, chart(theatre, 900, 2), view.price, prices)
+    world = mission(6, 9000.0, 2)
+    view = with_recourse(world.outlook(1.0))
+    prices = node_prices(world, view.price)
+    pilot = Pilot(world, chart(world, 900, 2), view.price, prices)
     worth = OptimalPolicy(view).worth(9000.0)
     assert worth <= 1.01 * pilot.expected
     assert worth >= 0.8 * pilot.expected

@@ -9,28 +9,28 @@ from numpy.typing import NDArray
 
 from fiveroute.sea.courses.course import IN_CURRENTS, Course, Pace, in_hand, outlook
 from fiveroute.sea.luck import Luck
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 
 ROUTES = [(), (4,), (7, 2, 9), (3, 1, 12, 6, 20, 15, 8)]
 
 
-def arrivals(theatre: Theatre, course: Course, runs: int) -> NDArray[np.float64]:
-    problem = theatre.problem
+def arrivals(world: World, course: Course, runs: int) -> NDArray[np.float64]:
+    problem = world.problem
     stops = np.array([course.anchor, *course.route, problem.destination])
     start = course.time + problem.service[stops[1:]].sum()
-    seas = (Luck(theatre.law, 5, run).matrix() for run in range(runs))
+    seas = (Luck(world.law, 5, run).matrix() for run in range(runs))
     return np.array([start + legs[stops[:-1], stops[1:]].sum() for legs in seas])
 
 
 @pytest.mark.parametrize("route", ROUTES)
 @pytest.mark.parametrize("z", [0.0, 1.0, 1.645])
 def test_a_course_without_time_in_hand_is_in_time_as_promised(
-    theatre: Theatre, route: tuple[int, ...], z: float
+    world: World, route: tuple[int, ...], z: float
 ) -> None:
-    view = outlook(theatre.problem, theatre.law, z)
+    view = outlook(world.problem, world.law, z)
     course = Course(0, 1000.0, 0.0, 20_000.0, route)
     tight = replace(course, budget=course.budget - in_hand(view, course))
-    in_time = (arrivals(theatre, course, 2000) <= tight.budget).mean()
+    in_time = (arrivals(world, course, 2000) <= tight.budget).mean()
     assert in_hand(view, tight) == pytest.approx(0.0, abs=1e-6)
     # The longest leg counts 2.5 times: of a course of one leg the margin is sqrt(2.5) z.
     least, most = NormalDist().cdf(z), NormalDist().cdf(2.5**0.5 * z)
@@ -39,9 +39,9 @@ def test_a_course_without_time_in_hand_is_in_time_as_promised(
         assert in_time == pytest.approx(most, abs=0.04)
 
 
-def test_in_currents_the_pace_of_the_leg_home_is_normal(theatre: Theatre) -> None:
-    law = theatre.law._replace(manoeuvre_time=0.0)
-    plain, view = (outlook(theatre.problem, law, 1.0, pace) for pace in (None, Pace(1.0, 0.2)))
+def test_in_currents_the_pace_of_the_leg_home_is_normal(world: World) -> None:
+    law = world.law._replace(manoeuvre_time=0.0)
+    plain, view = (outlook(world.problem, law, 1.0, pace) for pace in (None, Pace(1.0, 0.2)))
     home = len(view.profit) - 1
     times = view.step * np.arange(view.late.shape[1])
     for node in (1, 9, 16):
@@ -56,8 +56,8 @@ def test_in_currents_the_pace_of_the_leg_home_is_normal(theatre: Theatre) -> Non
     assert (view.variance[:, :home] == plain.variance[:, :home]).all()
 
 
-def test_an_uncertain_anchor_counts(theatre: Theatre) -> None:
-    view = outlook(theatre.problem, theatre.law, 2.0)
+def test_an_uncertain_anchor_counts(world: World) -> None:
+    view = outlook(world.problem, world.law, 2.0)
     sure = Course(0, 0.0, 0.0, 9000.0, ())
     variance = float(view.variance[0, -1])
     unsure = replace(sure, spread=3.0 * variance)

@@ -11,12 +11,12 @@ from fiveroute.sea.courses import fleet_replanning
 from fiveroute.sea.courses.course import Course, Outlook, in_hand, outlook
 from fiveroute.sea.courses.exact_replanning import best_courses
 from fiveroute.sea.courses.fleet_replanning import replan_fleet
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 
 
 @pytest.fixture
-def view(theatre: Theatre) -> Outlook:
-    return outlook(theatre.problem, theatre.law, 1.645)
+def view(world: World) -> Outlook:
+    return outlook(world.problem, world.law, 1.645)
 
 
 def data(view: Outlook, routes: tuple[Route, ...]) -> float:
@@ -42,20 +42,20 @@ def test_the_search_agrees_with_the_exact_answer(
     assert sum(gap < 1e-9 for gap in gaps) >= 29
 
 
-def test_a_fleet_is_never_made_worse(theatre: Theatre, view: Outlook, plan: Plan) -> None:
-    budgets = (theatre.problem.budgets * 1.2).tolist()
+def test_a_fleet_is_never_made_worse(world: World, view: Outlook, plan: Plan) -> None:
+    budgets = (world.problem.budgets * 1.2).tolist()
     courses = [
         Course(0, 0.0, 0.0, budget, route)
         for budget, route in zip(budgets, plan.routes, strict=True)
     ]
     before = [route for c, route in zip(courses, plan.routes, strict=True) if in_hand(view, c) >= 0]
-    routes = replan_fleet(view, courses, plan.idle(theatre.problem), 1)
+    routes = replan_fleet(view, courses, plan.idle(world.problem), 1)
     assert data(view, routes) >= data(view, tuple(before))
     visited = [node for route in routes for node in route]
     assert len(visited) == len(set(visited))
     for course, route in zip(courses, routes, strict=True):
         assert in_hand(view, replace(course, route=route)) >= 0.0
-    assert routes == replan_fleet(view, courses, plan.idle(theatre.problem), 1)
+    assert routes == replan_fleet(view, courses, plan.idle(world.problem), 1)
 
 
 def test_with_endless_time_everything_is_visited_in_the_shortest_time(view: Outlook) -> None:

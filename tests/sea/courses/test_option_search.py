@@ -11,39 +11,39 @@ from fiveroute.routes import Plan
 from fiveroute.sea.courses.course import Outlook, outlook
 from fiveroute.sea.courses.option_search import best_options
 from fiveroute.sea.courses.recourse import with_recourse
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 
 
-def view_of(theatre: Theatre) -> Outlook:
-    return with_recourse(outlook(theatre.problem, theatre.law, 1.645))
+def view_of(world: World) -> Outlook:
+    return with_recourse(outlook(world.problem, world.law, 1.645))
 
 
-def search(theatre: Theatre, plan: Plan, trials: int) -> tuple[Plan, float]:
+def search(world: World, plan: Plan, trials: int) -> tuple[Plan, float]:
     rng = np.random.default_rng(1)
-    budgets = theatre.problem.budgets
-    routes, worth = best_options(view_of(theatre), plan.routes, budgets, trials, rng)
+    budgets = world.problem.budgets
+    routes, worth = best_options(view_of(world), plan.routes, budgets, trials, rng)
     return Plan(routes), worth
 
 
-def test_no_node_is_lost_or_there_twice(theatre: Theatre, plan: Plan) -> None:
-    better, worth = search(theatre, plan, 1000)
+def test_no_node_is_lost_or_there_twice(world: World, plan: Plan) -> None:
+    better, worth = search(world, plan, 1000)
     nodes = [node for route in better.routes for node in route]
     assert len(set(nodes)) == len(nodes)
-    assert set(nodes) <= set(range(1, theatre.problem.destination))
-    assert (better, worth) == search(theatre, plan, 1000)
-    same, again = search(theatre, better, 0)
+    assert set(nodes) <= set(range(1, world.problem.destination))
+    assert (better, worth) == search(world, plan, 1000)
+    same, again = search(world, better, 0)
     assert same == better
     assert again == pytest.approx(worth)
-    assert worth > search(theatre, plan, 0)[1]
+    assert worth > search(world, plan, 0)[1]
 
 
 def test_it_finds_the_best_order_of_few_nodes() -> None:
-    theatre = Theatre.of(generate(nodes=5, seed=4), 1)
-    short = Theatre(
-        theatre.problem.with_budgets(np.array([9000.0])),
-        theatre.law,
-        theatre.points,
-        theatre.lengths_km,
+    world = World.of(generate(nodes=5, seed=4), 1)
+    short = World(
+        world.problem.with_budgets(np.array([9000.0])),
+        world.law,
+        world.points,
+        world.lengths_km,
     )
     orders = [search(short, Plan((order,)), 0)[1] for order in permutations(range(1, 6))]
     assert search(short, Plan.empty(1), 3000)[1] == pytest.approx(max(orders))
@@ -51,14 +51,14 @@ def test_it_finds_the_best_order_of_few_nodes() -> None:
 
 @pytest.mark.parametrize("nodes", [0, 1])
 def test_few_nodes_are_no_difficulty(nodes: int) -> None:
-    theatre = Theatre.of(generate(nodes=nodes, seed=4), 2)
-    plan, worth = search(theatre, Plan.empty(2), 100)
-    assert worth == pytest.approx(plan.objective(theatre.problem), abs=0.05)
+    world = World.of(generate(nodes=nodes, seed=4), 2)
+    plan, worth = search(world, Plan.empty(2), 100)
+    assert worth == pytest.approx(plan.objective(world.problem), abs=0.05)
 
 
-def test_it_ends_when_asked(theatre: Theatre, plan: Plan) -> None:
+def test_it_ends_when_asked(world: World, plan: Plan) -> None:
     clock = Limits(time=0.0).start()
-    view, rng = view_of(theatre), np.random.default_rng(1)
-    budgets = theatre.problem.budgets
+    view, rng = view_of(world), np.random.default_rng(1)
+    budgets = world.problem.budgets
     _, worth = best_options(view, plan.routes, budgets, 10**9, rng, clock)
-    assert worth >= search(theatre, plan, 0)[1]
+    assert worth >= search(world, plan, 0)[1]

@@ -13,14 +13,14 @@ from fiveroute.sea.courses.course import Course, Outlook, in_hand, outlook
 from fiveroute.sea.courses.discarding import discard
 from fiveroute.sea.courses.recourse import look_ahead, next_stop, reconsider, with_recourse
 from fiveroute.sea.courses.replanning import TRIALS, replan
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 
 ROUTE: tuple[int, ...] = (4, 7, 2, 9, 12, 6)
 
 
 @pytest.fixture(scope="module")
-def view(theatre: Theatre) -> Outlook:
-    return with_recourse(outlook(theatre.problem, theatre.law, 1.645))
+def view(world: World) -> Outlook:
+    return with_recourse(outlook(world.problem, world.law, 1.645))
 
 
 def value(view: Outlook, route: tuple[int, ...], left: float) -> tuple[int, float]:
@@ -77,8 +77,8 @@ def test_with_time_for_all_it_goes_on_and_without_it_goes_home(view: Outlook) ->
 def test_what_comes_out_keeps_the_reserve(
     nodes: int, seed: int, budget: float, reserve: float
 ) -> None:
-    theatre = Theatre.of(generate(nodes=nodes, seed=seed, fleet_size=1))
-    view = with_recourse(outlook(theatre.problem, theatre.law, reserve))
+    world = World.of(generate(nodes=nodes, seed=seed, fleet_size=1))
+    view = with_recourse(outlook(world.problem, world.law, reserve))
     order = tuple((np.random.default_rng(seed).permutation(nodes) + 1).tolist())
     before = Course(0, 0.0, 0.0, budget, order[: nodes // 2])
     after, left_over = reconsider(view, before, order[nodes // 2 :])
@@ -86,15 +86,15 @@ def test_what_comes_out_keeps_the_reserve(
     assert in_hand(view, after) >= min(0.0, in_hand(view, discard(view, before)[0]))
 
 
-def test_who_keeps_a_reserve_for_the_longest_leg_does_not_look_ahead(theatre: Theatre) -> None:
-    plain, course = outlook(theatre.problem, theatre.law, 1.645), Course(0, 0.0, 0.0, 9000.0, ROUTE)
+def test_who_keeps_a_reserve_for_the_longest_leg_does_not_look_ahead(world: World) -> None:
+    plain, course = outlook(world.problem, world.law, 1.645), Course(0, 0.0, 0.0, 9000.0, ROUTE)
     assert reconsider(plain, course, (1, 3)) == replan(plain, course, (1, 3), TRIALS, 0)
 
 
 def test_where_nothing_is_uncertain_a_plan_that_fits_is_sailed() -> None:
     calm = Uncertainty(drift=0.0, manoeuvres_per_km=0.0, manoeuvre_time=0.0)
-    theatre = Theatre.of(generate(nodes=10, seed=2, fleet_size=1), uncertainty=calm)
-    view = with_recourse(outlook(theatre.problem, theatre.law, 1.645))
+    world = World.of(generate(nodes=10, seed=2, fleet_size=1), uncertainty=calm)
+    view = with_recourse(outlook(world.problem, world.law, 1.645))
     course = Course(0, 0.0, 0.0, 1e5, (3, 5, 1))
     tight = replace(course, budget=1e5 - in_hand(view, course) + 1e-3)
     assert set(reconsider(view, tight, ())[0].route) == {3, 5, 1}

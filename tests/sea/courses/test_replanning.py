@@ -10,12 +10,12 @@ from fiveroute.generate import generate
 from fiveroute.sea.courses.course import Course, Outlook, in_hand, outlook
 from fiveroute.sea.courses.discarding import discard
 from fiveroute.sea.courses.replanning import replan
-from fiveroute.sea.theatre import Theatre
+from fiveroute.sea.world import World
 
 
 def view_of(nodes: int, seed: int, reserve: float) -> Outlook:
-    theatre = Theatre.of(generate(nodes=nodes, seed=seed, fleet_size=1))
-    return outlook(theatre.problem, theatre.law, reserve)
+    world = World.of(generate(nodes=nodes, seed=seed, fleet_size=1))
+    return outlook(world.problem, world.law, reserve)
 
 
 def data(view: Outlook, course: Course) -> float:

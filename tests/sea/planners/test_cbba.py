@@ -14,28 +14,28 @@ from fiveroute.sea.courses.course import outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.cbba import Cbba
 from fiveroute.sea.simulation import failure_times, simulate_fleet
-from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Voyage
+from fiveroute.sea.world import World
 
 
 def random_mission(seed: int, loss: float = 0.0, failures: float = 0.0) -> tuple[Voyage, Cbba]:
     """A random small mission, sailed to its end."""
     rng = np.random.default_rng(seed)
     n, fleet = int(rng.integers(4, 20)), int(rng.integers(1, 6))
-    theatre = Theatre.of(generate(nodes=n, seed=seed, fleet_size=fleet))
-    problem = theatre.problem.with_budgets(rng.uniform(5000.0, 20_000.0, size=fleet))
+    world = World.of(generate(nodes=n, seed=seed, fleet_size=fleet))
+    problem = world.problem.with_budgets(rng.uniform(5000.0, 20_000.0, size=fleet))
     order = (rng.permutation(n) + 1).tolist()
     cuts = sorted(rng.integers(0, n // 2 + 1, size=fleet).tolist())
     plan = Plan.of(order[a:b] for a, b in zip([0, *cuts[:-1]], cuts, strict=True))
     voyage = Voyage(
-        problem, Luck(theatre.law, seed, 0), failure_times(problem.budgets, failures, seed, 0)
+        problem, Luck(world.law, seed, 0), failure_times(problem.budgets, failures, seed, 0)
     )
     crew = Cbba(
         voyage,
-        outlook(problem, theatre.law, 1.645),
+        outlook(problem, world.law, 1.645),
         plan,
         channel=Channel(loss=loss),
-        points=theatre.points,
+        points=world.points,
         rng=rng,
         silence=SILENCE if failures else math.inf,
     )
@@ -70,16 +70,16 @@ def test_over_a_bad_channel_the_fleet_still_comes_home() -> None:
     assert doubles < 40
 
 
-def test_a_failed_teammate_is_replaced(theatre: Theatre) -> None:
-    problem = theatre.problem.with_budgets([30_000.0, 30_000.0])
+def test_a_failed_teammate_is_replaced(world: World) -> None:
+    problem = world.problem.with_budgets([30_000.0, 30_000.0])
     plan = Plan.of([range(1, 13), range(13, 19)])
-    voyage = Voyage(problem, Luck(theatre.law, 1, 0), (10.0, math.inf))
+    voyage = Voyage(problem, Luck(world.law, 1, 0), (10.0, math.inf))
     crew = Cbba(
         voyage,
-        outlook(problem, theatre.law, 1.645),
+        outlook(problem, world.law, 1.645),
         plan,
         channel=Channel(),
-        points=theatre.points,
+        points=world.points,
         rng=np.random.default_rng(0),
     )
     voyage.sail(crew)
@@ -96,9 +96,9 @@ def test_whoever_fails_the_others_finish() -> None:
         assert kinds["arrive"] + kinds["fail"] == len(crew.agents)
 
 
-def test_consensus_collects_more_than_none(theatre: Theatre, plan: Plan) -> None:
+def test_consensus_collects_more_than_none(world: World, plan: Plan) -> None:
     alone, together, deaf = (
-        simulate_fleet(theatre, plan, planner=planner, runs=60, loss=loss)
+        simulate_fleet(world, plan, planner=planner, runs=60, loss=loss)
         for planner, loss in (("no-coordination", 0.0), ("cbba", 0.0), ("cbba", 1.0))
     )
     assert together.completions.mean() > alone.completions.mean() + 0.01

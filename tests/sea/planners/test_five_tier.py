@@ -17,8 +17,8 @@ from fiveroute.sea.events import Frame, Kind
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.five_tier import FiveTier, first_keepers
 from fiveroute.sea.simulation import failure_times, simulate_fleet
-from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Voyage
+from fiveroute.sea.world import World
 
 
 @dataclass(slots=True)
@@ -59,8 +59,8 @@ def faulty_mission(seed: int, failures: float) -> tuple[WatchedVoyage, FiveTier]
     """A random small mission over a random bad channel, sailed to its end."""
     rng = np.random.default_rng(seed)
     n, fleet = int(rng.integers(1, 20)), int(rng.integers(1, 6))
-    theatre = Theatre.of(generate(nodes=n, seed=seed, fleet_size=fleet))
-    problem = theatre.problem.with_budgets(rng.uniform(5000.0, 20_000.0, size=fleet))
+    world = World.of(generate(nodes=n, seed=seed, fleet_size=fleet))
+    problem = world.problem.with_budgets(rng.uniform(5000.0, 20_000.0, size=fleet))
     order = (rng.permutation(n) + 1).tolist()
     cuts = sorted(rng.integers(0, n // 2 + 1, size=fleet).tolist())
     plan = Plan.of(order[a:b] for a, b in zip([0, *cuts[:-1]], cuts, strict=True))
@@ -71,15 +71,15 @@ def faulty_mission(seed: int, failures: float) -> tuple[WatchedVoyage, FiveTier]
         bursts=Bursts() if rng.random() < 0.3 else None,
         jitter=float(rng.choice([0.0, 60.0, 300.0])),
     )
-    view = outlook(problem, theatre.law, float(rng.choice([0.0, 1.645])))
+    view = outlook(problem, world.law, float(rng.choice([0.0, 1.645])))
     fails = failure_times(problem.budgets, failures, seed, 0)
-    voyage = WatchedVoyage(problem, Luck(theatre.law, seed, 0), fails)
+    voyage = WatchedVoyage(problem, Luck(world.law, seed, 0), fails)
     crew = FiveTier(
         voyage,
         view,
         plan,
         channel=channel,
-        points=theatre.points,
+        points=world.points,
         rng=rng,
         silence=SILENCE if failures else math.inf,
     )
@@ -118,13 +118,13 @@ def test_whoever_fails_a_double_collection_follows_a_false_belief() -> None:
 
 def test_over_a_perfect_channel_every_node_stays_with_somebody() -> None:
     for seed in range(50):
-        theatre = Theatre.of(generate(nodes=12, seed=seed, fleet_size=3))
-        problem = theatre.problem.with_budgets([9000.0] * 3)
+        world = World.of(generate(nodes=12, seed=seed, fleet_size=3))
+        problem = world.problem.with_budgets([9000.0] * 3)
         plan = Plan.of([range(1, 5), range(5, 9), ()])
-        view = outlook(problem, theatre.law, 1.645)
-        voyage = Voyage(problem, Luck(theatre.law, seed, 0), (math.inf,) * 3)
+        view = outlook(problem, world.law, 1.645)
+        voyage = Voyage(problem, Luck(world.law, seed, 0), (math.inf,) * 3)
         rng = np.random.default_rng(0)
-        crew = FiveTier(voyage, view, plan, channel=Channel(), points=theatre.points, rng=rng)
+        crew = FiveTier(voyage, view, plan, channel=Channel(), points=world.points, rng=rng)
         voyage.sail(crew)
         assert_one_right_a_node(crew)
         known = frozenset[int]().union(*(a.holdings.mine | a.holdings.done for a in crew.agents))
@@ -132,15 +132,15 @@ def test_over_a_perfect_channel_every_node_stays_with_somebody() -> None:
         assert not any(a.holdings.ceded or a.holdings.pledged for a in crew.agents)
 
 
-def test_a_failed_teammate_is_replaced(theatre: Theatre) -> None:
+def test_a_failed_teammate_is_replaced(world: World) -> None:
     """AUV 0 fails at once; what it had is suspected, taken over, and partly collected."""
     instance = generate(nodes=24, seed=3)
     problem = instance.problem(2).with_budgets([30_000.0, 30_000.0])
     plan = Plan.of([range(1, 13), range(13, 19)])
-    view = outlook(problem, theatre.law, 1.645)
-    voyage = Voyage(problem, Luck(theatre.law, 1, 0), (10.0, math.inf))
+    view = outlook(problem, world.law, 1.645)
+    voyage = Voyage(problem, Luck(world.law, 1, 0), (10.0, math.inf))
     rng = np.random.default_rng(0)
-    crew = FiveTier(voyage, view, plan, channel=Channel(), points=theatre.points, rng=rng)
+    crew = FiveTier(voyage, view, plan, channel=Channel(), points=world.points, rng=rng)
     voyage.sail(crew)
     assert crew.takeovers > 0
     assert crew.false_takeovers == 0
@@ -152,12 +152,12 @@ def test_a_failed_teammate_is_replaced(theatre: Theatre) -> None:
 def test_an_auction_takes_few_messages() -> None:
     """One keeper, five idle nodes, three bidders: all is settled in at most twenty each."""
     for seed in range(20):
-        theatre = Theatre.of(generate(nodes=9, seed=seed, fleet_size=4))
+        world = World.of(generate(nodes=9, seed=seed, fleet_size=4))
         plan = Plan.of([[6], [7], [8], [9]])
-        view = outlook(theatre.problem, theatre.law, 1.645)
-        voyage = Voyage(theatre.problem, Luck(theatre.law, seed, 0), (math.inf,) * 4)
+        view = outlook(world.problem, world.law, 1.645)
+        voyage = Voyage(world.problem, Luck(world.law, seed, 0), (math.inf,) * 4)
         rng = np.random.default_rng(0)
-        crew = FiveTier(voyage, view, plan, channel=Channel(), points=theatre.points, rng=rng)
+        crew = FiveTier(voyage, view, plan, channel=Channel(), points=world.points, rng=rng)
         for agent in crew.agents:
             agent.holdings.kept.clear()
         crew.agents[0].holdings.kept.update(range(1, 6))
@@ -167,9 +167,9 @@ def test_an_auction_takes_few_messages() -> None:
         assert_one_right_a_node(crew)
 
 
-def test_coordination_collects_more_than_none(theatre: Theatre, plan: Plan) -> None:
+def test_coordination_collects_more_than_none(world: World, plan: Plan) -> None:
     alone, together, deaf = (
-        simulate_fleet(theatre, plan, planner=planner, runs=60, loss=loss)
+        simulate_fleet(world, plan, planner=planner, runs=60, loss=loss)
         for planner, loss in (("no-coordination", 0.0), ("five-tier", 0.0), ("five-tier", 1.0))
     )
     assert together.completions.mean() > alone.completions.mean() + 0.01
@@ -178,8 +178,8 @@ def test_coordination_collects_more_than_none(theatre: Theatre, plan: Plan) -> N
 
 
 @pytest.mark.parametrize("idle", [0, 5])
-def test_first_keepers_share_out_what_the_plan_leaves(theatre: Theatre, idle: int) -> None:
+def test_first_keepers_share_out_what_the_plan_leaves(world: World, idle: int) -> None:
     plan = Plan.of([range(1 + idle, 12), range(12, 25)])
-    keepers = first_keepers(theatre.problem, plan)
+    keepers = first_keepers(world.problem, plan)
     assert sorted(keepers) == list(range(1, 1 + idle))
     assert set(keepers.values()) <= {0, 1}

@@ -18,8 +18,8 @@ from fiveroute.sea.planners.own_pick_up import OwnPickUp
 from fiveroute.sea.planners.re_optimising import ReOptimising
 from fiveroute.sea.planners.rmmp import Rmmp
 from fiveroute.sea.planners.to_the_letter import ToTheLetter
-from fiveroute.sea.theatre import Theatre
 from fiveroute.sea.voyage import Voyage
+from fiveroute.sea.world import World
 
 Knowing = type[Ftcmp | OfOneMind | OwnPickUp | ReOptimising | Rmmp | ToTheLetter]
 KNOWING: list[Knowing] = [Ftcmp, OfOneMind, OwnPickUp, ReOptimising, Rmmp, ToTheLetter]
@@ -27,15 +27,15 @@ KNOWING: list[Knowing] = [Ftcmp, OfOneMind, OwnPickUp, ReOptimising, Rmmp, ToThe
 
 def sail(
     kind: Knowing,
-    theatre: Theatre,
+    world: World,
     plan: Plan,
     budgets: list[float],
     failures: tuple[float, ...] | None = None,
     run: int = 0,
 ) -> Voyage:
-    problem = theatre.problem.with_budgets(budgets)
-    view = outlook(problem, theatre.law, 1.645)
-    voyage = Voyage(problem, Luck(theatre.law, 1, run), failures or (math.inf,) * len(budgets))
+    problem = world.problem.with_budgets(budgets)
+    view = outlook(problem, world.law, 1.645)
+    voyage = Voyage(problem, Luck(world.law, 1, run), failures or (math.inf,) * len(budgets))
     voyage.sail(kind(voyage, view, plan))
     return voyage
 
@@ -49,9 +49,9 @@ def collected(voyage: Voyage, auv: int | None = None) -> set[int]:
 
 
 @pytest.mark.parametrize("kind", KNOWING)
-def test_who_has_time_takes_the_nodes_of_the_failed(kind: Knowing, theatre: Theatre) -> None:
+def test_who_has_time_takes_the_nodes_of_the_failed(kind: Knowing, world: World) -> None:
     plan = Plan.of([range(1, 13), range(13, 19)])
-    voyage = sail(kind, theatre, plan, [40_000.0, 40_000.0], (10.0, math.inf))
+    voyage = sail(kind, world, plan, [40_000.0, 40_000.0], (10.0, math.inf))
     assert collected(voyage, 0) == set()
     given_up = {e.node for e in voyage.log if e.kind == "discard" and e.auv == 0}
     lost = set(range(1, 13)) - given_up
@@ -61,9 +61,9 @@ def test_who_has_time_takes_the_nodes_of_the_failed(kind: Knowing, theatre: Thea
         assert min(inherited) > SILENCE
 
 
-def test_ftcmp_hands_over_what_a_fault_drops_and_nothing_else(theatre: Theatre) -> None:
+def test_ftcmp_hands_over_what_a_fault_drops_and_nothing_else(world: World) -> None:
     plan = Plan.of([range(1, 13), [13, 14]])
-    voyage = sail(Ftcmp, theatre, plan, [9000.0, 40_000.0])
+    voyage = sail(Ftcmp, world, plan, [9000.0, 40_000.0])
     dropped = {e.node for e in voyage.log if e.kind == "discard" and e.auv == 0}
     handed = {e.node for e in voyage.log if e.kind == "pick_up" and e.auv == 1}
     assert handed
@@ -71,39 +71,39 @@ def test_ftcmp_hands_over_what_a_fault_drops_and_nothing_else(theatre: Theatre) 
     assert collected(voyage) <= set(range(1, 15))
 
 
-def test_rmmp_shares_all_unvisited_nodes_out(theatre: Theatre) -> None:
+def test_rmmp_shares_all_unvisited_nodes_out(world: World) -> None:
     plan = Plan.of([range(1, 9), range(9, 17)])
-    problem = theatre.problem
-    view = outlook(problem, theatre.law, 1.645)
-    crew = Rmmp(Voyage(problem, Luck(theatre.law, 1, 0), (math.inf, math.inf)), view, plan)
+    problem = world.problem
+    view = outlook(problem, world.law, 1.645)
+    crew = Rmmp(Voyage(problem, Luck(world.law, 1, 0), (math.inf, math.inf)), view, plan)
     cells = [crew._cell(auv, 0.0) for auv in range(2)]
     assert cells[0] | cells[1] == set(range(1, 25))
     assert not cells[0] & cells[1]
     assert set(range(1, 9)) <= cells[0]
 
 
-def test_word_of_idle_nodes_is_worth_something(theatre: Theatre) -> None:
+def test_word_of_idle_nodes_is_worth_something(world: World) -> None:
     plan = Plan.of([range(1, 9), ()])
     for kind in (OwnPickUp, OfOneMind, ReOptimising, ToTheLetter, Rmmp):
-        assert len(collected(sail(kind, theatre, plan, [18_000.0, 18_000.0]))) > 8
-    assert len(collected(sail(Ftcmp, theatre, plan, [18_000.0, 18_000.0]))) <= 8
+        assert len(collected(sail(kind, world, plan, [18_000.0, 18_000.0]))) > 8
+    assert len(collected(sail(Ftcmp, world, plan, [18_000.0, 18_000.0]))) <= 8
 
 
 def test_a_plan_in_time_is_left_alone_by_the_faithful() -> None:
     """With endless time every planner that follows its plan visits all that is on it."""
-    theatre = Theatre.of(generate(nodes=10, seed=4), 2)
+    world = World.of(generate(nodes=10, seed=4), 2)
     plan = Plan.of([range(1, 6), range(6, 11)])
     for kind in (Ftcmp, ToTheLetter):
-        voyage = sail(kind, theatre, plan, [1e6, 1e6])
+        voyage = sail(kind, world, plan, [1e6, 1e6])
         order = [e.node for e in voyage.log if e.kind == "collect" and e.auv == 0]
         assert order == [1, 2, 3, 4, 5]
         assert Counter(e.kind for e in voyage.log)["discard"] == 0
 
 
-def test_the_state_of_the_fleet_is_shared(theatre: Theatre) -> None:
+def test_the_state_of_the_fleet_is_shared(world: World) -> None:
     plan = Plan.of([[1, 2], [3]])
-    voyage = Voyage(theatre.problem, Luck(theatre.law, 1, 0), (math.inf, 5.0))
-    crew = AllKnowing(voyage, outlook(theatre.problem, theatre.law, 0.0), plan)
+    voyage = Voyage(world.problem, Luck(world.law, 1, 0), (math.inf, 5.0))
+    crew = AllKnowing(voyage, outlook(world.problem, world.law, 0.0), plan)
     assert crew.idle == set(range(4, 25))
     assert crew.depart(0) == 1
     assert crew.routes[0] == (2,)

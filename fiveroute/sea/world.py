@@ -16,14 +16,14 @@ from fiveroute.sea.sailed_luck import SailedLuck, VehicleModel
 from fiveroute.tiers.actuation import LegLaw, leg_law, uncertainty_of
 from fiveroute.vehicle.fit import Fit
 
-__all__ = ["Theatre"]
+__all__ = ["World"]
 
 _TRIAL_OCEANS = 1 << 41
 """Added to the seed of a simulation for the oceans that the law of a vehicle is fitted in."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Theatre:
+class World:
     """A mission as the simulation sees it.
 
     Parameters
@@ -61,8 +61,8 @@ class Theatre:
         travel: NDArray[np.float64] | None = None,
         uncertainty: Uncertainty | None = None,
         out_of_reach: float = 0.0,
-    ) -> Theatre:
-        """The theatre of an instance.
+    ) -> World:
+        """The world of an instance.
 
         Parameters
         ----------
@@ -89,7 +89,7 @@ class Theatre:
 
     def sailed_by(
         self, model: VehicleModel, seed: int = 0, *, limits: Limits | None = None
-    ) -> Theatre:
+    ) -> World:
         """The same mission, its legs sailed by a vehicle, and the law fitted to what it does.
 
         Parameters
@@ -107,7 +107,7 @@ class Theatre:
         """What the legs of the mission make of the vehicle, in oceans of the fit's own."""
         return model.fit(self.problem.travel, seed=seed + _TRIAL_OCEANS, limits=limits)
 
-    def expecting(self, model: VehicleModel, fit: Fit) -> Theatre:
+    def expecting(self, model: VehicleModel, fit: Fit) -> World:
         """The same mission, its legs sailed by a vehicle of which a fit is known.
 
         Equation (12) knows no delay on the average; here a leg is expected to take as much longer
@@ -122,7 +122,7 @@ class Theatre:
         return replace(self, law=law, model=model, pace=pace)
 
     @property
-    def by_law(self) -> Theatre:
+    def by_law(self) -> World:
         """The same mission, its legs by the law alone, for fast rehearsals."""
         return replace(self, model=None)
 
