@@ -19,8 +19,8 @@ from fiveroute.sea.bounds.optimal_policy import OptimalPolicy, Steersman
 from fiveroute.sea.courses.recourse import with_recourse
 from fiveroute.sea.departure import departure_plan
 from fiveroute.sea.luck import Luck
+from fiveroute.sea.run import Run
 from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.voyage import Voyage
 from fiveroute.sea.world import World
 
 HEADER = ("mission", "worth", "optimal", "late", "five-tier", "late", "gap", "gap")
@@ -48,12 +48,12 @@ def measure(number: int, options: argparse.Namespace) -> tuple[float, ...]:
     policy = OptimalPolicy(with_recourse(world.outlook(RESERVE)))
     worth = policy.worth(float(problem.budgets[0])) / problem.total_profit
     best, late = [], 0
-    for run in range(options.runs):
-        voyage = Voyage(problem, Luck(world.law, number, run), (np.inf,))
-        voyage.sail(Steersman(policy, voyage))
-        nodes = [event.node for event in voyage.log if event.kind == "collect"]
+    for k in range(options.runs):
+        run = Run(problem, Luck(world.law, number, k), (np.inf,))
+        run.sail(Steersman(policy, run))
+        nodes = [event.node for event in run.log if event.kind == "collect"]
         best.append(world.completion(sum(problem.profit[node] for node in nodes if node)))
-        late += voyage.log[-1].t > problem.budgets[0]
+        late += run.log[-1].t > problem.budgets[0]
     plan = departure_plan(world, reserve=RESERVE)
     ours = simulate_fleet(world, plan, runs=options.runs, seed=number, gap=True)
     known = np.mean([run.clairvoyant for run in ours.runs])

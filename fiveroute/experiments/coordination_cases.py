@@ -22,9 +22,9 @@ from fiveroute.sea.courses.discarding import discard
 from fiveroute.sea.courses.picking import offers
 from fiveroute.sea.departure import departure_plan
 from fiveroute.sea.planners.to_the_letter import ToTheLetter
+from fiveroute.sea.run import Run
 from fiveroute.sea.run_result import RunResult
 from fiveroute.sea.simulation import simulate_fleet
-from fiveroute.sea.voyage import Voyage
 from fiveroute.sea.world import World
 
 __all__ = ["CASES", "Case", "Round", "Sailed", "busiest_auction", "sail_case"]
@@ -152,11 +152,11 @@ def busiest_auction(world: World, plan: Plan, runs: int, seed: int = 0) -> tuple
     """
     best: tuple[Round, ...] = ()
     view = world.outlook(reserve=0.0)
-    for run in range(runs):
+    for number in range(runs):
         never = (float("inf"),) * world.problem.fleet_size
-        voyage = Voyage(world.problem, world.luck(seed, run), never)
-        crew = _Listener(voyage, view, plan)
-        voyage.sail(crew)
+        run = Run(world.problem, world.luck(seed, number), never)
+        crew = _Listener(run, view, plan)
+        run.sail(crew)
         best = max([best, *crew.auctions], key=_rivalry)
     return best
 
@@ -164,8 +164,8 @@ def busiest_auction(world: World, plan: Plan, runs: int, seed: int = 0) -> tuple
 class _Listener(ToTheLetter):
     """Steers, and takes every auction down."""
 
-    def __init__(self, voyage: Voyage, view: Outlook, plan: Plan) -> None:
-        super().__init__(voyage, view, plan)
+    def __init__(self, run: Run, view: Outlook, plan: Plan) -> None:
+        super().__init__(run, view, plan)
         self.auctions: list[tuple[Round, ...]] = []
 
     def steer(self, auv: int, t: float) -> int:

@@ -35,14 +35,14 @@ from fiveroute.sea.planners.own_pick_up import OwnPickUp
 from fiveroute.sea.planners.re_optimising import ReOptimising
 from fiveroute.sea.planners.rmmp import Rmmp
 from fiveroute.sea.planners.to_the_letter import ToTheLetter
+from fiveroute.sea.run import Crew, Run
 from fiveroute.sea.run_result import RunResult, SimulationResult
 from fiveroute.sea.sailed_luck import SailedLuck
-from fiveroute.sea.voyage import Crew, Voyage
 from fiveroute.sea.world import World
 
 __all__ = ["PLANNERS", "simulate_fleet"]
 
-_KNOWING: dict[str, Callable[[Voyage, Outlook, Plan], Crew]] = {
+_KNOWING: dict[str, Callable[[Run, Outlook, Plan], Crew]] = {
     "ftcmp": Ftcmp,
     "rmmp": Rmmp,
     "to-the-letter": ToTheLetter,
@@ -125,8 +125,8 @@ def simulate_fleet(
         seed,
     )
     clock, done = (limits or Limits()).start(), []
-    for run in range(first_run, first_run + runs):
-        done.append(_run(sea, plan, planner, run, log, gap))
+    for number in range(first_run, first_run + runs):
+        done.append(_run(sea, plan, planner, number, log, gap))
         if progress is not None:
             progress(Progress(clock.seconds, message=f"run {len(done)} of {runs}"))
         if clock.expired:
@@ -146,34 +146,34 @@ class _Sea:
     seed: int
 
 
-def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool, gap: bool) -> RunResult:
-    problem, luck = sea.world.problem, sea.world.luck(sea.seed, run)
-    fails = failure_times(problem.budgets, sea.failures, sea.seed, run)
+def _run(sea: _Sea, plan: Plan, planner: str, number: int, log: bool, gap: bool) -> RunResult:
+    problem, luck = sea.world.problem, sea.world.luck(sea.seed, number)
+    fails = failure_times(problem.budgets, sea.failures, sea.seed, number)
     if planner == "no-coordination" and isinstance(luck, Luck) and not (log or gap):
         return _run_alone(sea.world, sea.view, plan, luck, fails)
-    voyage = Voyage(problem, luck, fails)
-    crew = _crew(sea, voyage, plan, planner)
-    voyage.sail(crew)
-    nodes = [event.node for event in voyage.log if event.kind == "collect"]
+    run = Run(problem, luck, fails)
+    crew = _crew(sea, run, plan, planner)
+    run.sail(crew)
+    nodes = [event.node for event in run.log if event.kind == "collect"]
     collected = problem.collected(sorted({node for node in nodes if node is not None}))
     arrivals = [math.inf] * problem.fleet_size
-    for event in voyage.log:
+    for event in run.log:
         if event.kind == "arrive":
             arrivals[event.auv] = event.t
     result = RunResult(
-        run,
+        number,
         sea.world.completion(collected),
         tuple(arrivals),
         _late(sea.world, arrivals),
         len(nodes) - len(set(nodes)),
     )
     if log:
-        legs = tuple(tuple(vessel.sailed) for vessel in voyage.vessels)
-        result = replace(result, events=tuple(voyage.log), legs=legs)
+        legs = tuple(tuple(vessel.sailed) for vessel in run.vessels)
+        result = replace(result, events=tuple(run.log), legs=legs)
     if isinstance(luck, SailedLuck):
-        result = replace(result, **_safety(luck, voyage))
+        result = replace(result, **_safety(luck, run))
     elif gap:
-        result = replace(result, clairvoyant=_best(sea.world, voyage, luck))
+        result = replace(result, clairvoyant=_best(sea.world, run, luck))
     if isinstance(crew, FiveTier | Cbba):
         sent, delivered = crew.radio.sent, crew.radio.delivered
         takeovers = crew.false_takeovers
@@ -181,12 +181,12 @@ def _run(sea: _Sea, plan: Plan, planner: str, run: int, log: bool, gap: bool) ->
     return result
 
 
-def _safety(luck: SailedLuck, voyage: Voyage) -> dict[str, Any]:
+def _safety(luck: SailedLuck, run: Run) -> dict[str, Any]:
     """What the tracks of a run prove."""
     least = luck.least_clearance
     lost = sum(
         vessel.due <= fails and not luck.leg(*vessel.sailed[-1]).arrives
-        for vessel, fails in zip(voyage.vessels, voyage.failures, strict=True)
+        for vessel, fails in zip(run.vessels, run.failures, strict=True)
         if vessel.sailed
     )
     return {
@@ -196,31 +196,31 @@ def _safety(luck: SailedLuck, voyage: Voyage) -> dict[str, Any]:
     }
 
 
-def _best(world: World, voyage: Voyage, luck: Luck) -> float:
+def _best(world: World, run: Run, luck: Luck) -> float:
     """Completion rate of the clairvoyant plan."""
-    routes: list[list[int]] = [[] for _ in voyage.vessels]
-    for event in voyage.log:
+    routes: list[list[int]] = [[] for _ in run.vessels]
+    for event in run.log:
         if event.kind == "collect" and event.node is not None:
             routes[event.auv].append(event.node)
     real, plan = clairvoyant_plan(world.problem, luck, Plan.of(routes))
     return world.completion(plan.objective(real))
 
 
-def _crew(sea: _Sea, voyage: Voyage, plan: Plan, planner: str) -> Crew:
+def _crew(sea: _Sea, run: Run, plan: Plan, planner: str) -> Crew:
     """Whoever steers this run."""
     if planner in _TALKING:
         return _TALKING[planner](
-            voyage,
+            run,
             sea.view,
             plan,
             channel=sea.channel,
             points=sea.world.points,
-            rng=np.random.default_rng((sea.seed, voyage.luck.run, 2)),
+            rng=np.random.default_rng((sea.seed, run.luck.run, 2)),
             silence=SILENCE if sea.failures > 0.0 else math.inf,
         )
     if planner == "no-coordination":
-        return Alone(voyage, sea.view, plan)
-    return _KNOWING[planner](voyage, sea.view, plan)
+        return Alone(run, sea.view, plan)
+    return _KNOWING[planner](run, sea.view, plan)
 
 
 def failure_times(

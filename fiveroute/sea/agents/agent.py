@@ -33,7 +33,7 @@ from fiveroute.sea.agents.own_ship import OwnShip
 from fiveroute.sea.agents.watch import Watch
 from fiveroute.sea.courses.course import Outlook
 from fiveroute.sea.courses.recourse import reconsider
-from fiveroute.sea.voyage import Voyage
+from fiveroute.sea.run import Run
 
 __all__ = ["BEAT", "Agent"]
 
@@ -48,7 +48,7 @@ class Agent:
     ----------
     number
         The AUV, counted from 0.
-    voyage
+    run
         The run; the agent looks at its own vessel only.
     radio
         The channel.
@@ -63,7 +63,7 @@ class Agent:
     def __init__(
         self,
         number: int,
-        voyage: Voyage,
+        run: Run,
         radio: Radio,
         view: Outlook,
         holdings: Holdings,
@@ -71,7 +71,7 @@ class Agent:
         silence: float,
         tell: Callable[[int, int], None],
     ) -> None:
-        self.ship = OwnShip(number, voyage, radio, view, holdings)
+        self.ship = OwnShip(number, run, radio, view, holdings)
         self.watch = Watch(self.ship, dict(estates), silence, tell, self._offer)
         self.auctioneer = Auctioneer(self.ship, self.watch.partners)
         self.bidder = Bidder(self.ship)
@@ -94,7 +94,7 @@ class Agent:
             self._drop(t, own.route[:1])  # its turn has come before its confirmation
         own.target = own.route.pop(0) if own.route else None
         vessel.left = t
-        vessel.target = ship.voyage.problem.destination if own.target is None else own.target
+        vessel.target = ship.run.problem.destination if own.target is None else own.target
         ship.report(t)
         self._offer(t)
         self.bidder.wish(t)
@@ -164,7 +164,7 @@ class Agent:
         """Now and then: a sign of life, reminders, and a look for signs of others."""
         ship, own = self.ship, self.holdings
         has_business = not ship.vessel.is_home
-        has_business |= bool(own.kept or own.ceded) and t < ship.voyage.problem.budgets.max()
+        has_business |= bool(own.kept or own.ceded) and t < ship.run.problem.budgets.max()
         if not has_business:
             return
         if t - ship.reported >= BEAT:

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from fiveroute.errors import InputError
 from fiveroute.sea.agents.messages import Message
 from fiveroute.sea.events import Frame
-from fiveroute.sea.voyage import Vessel, Voyage
+from fiveroute.sea.run import Run, Vessel
 
 __all__ = ["PRESETS", "SOUND_SPEED", "Bursts", "Channel", "Radio"]
 
@@ -111,7 +111,7 @@ class Radio:
 
     Parameters
     ----------
-    voyage
+    run
         The run.
     channel
         What it is like.
@@ -125,7 +125,7 @@ class Radio:
         Frames sent, and frames heard by those whom they were for.
     """
 
-    voyage: Voyage
+    run: Run
     channel: Channel
     points: NDArray[np.float64]
     rng: np.random.Generator
@@ -138,7 +138,7 @@ class Radio:
     _bad_links: set[tuple[int, int]] = field(default_factory=set)
 
     def __post_init__(self) -> None:
-        n, fleet = self.voyage.problem.n, self.voyage.problem.fleet_size
+        n, fleet = self.run.problem.n, self.run.problem.fleet_size
         across = float(np.hypot(*np.ptp(self.points, axis=0)))
         longest = 36 + 16 * (n + 1)
         self.slot = longest / self.channel.bit_rate + min(across, self.channel.reach) / SOUND_SPEED
@@ -148,7 +148,7 @@ class Radio:
     @property
     def cycle(self) -> float:
         """Seconds from one turn of an AUV to the next."""
-        return self.slot * self.voyage.problem.fleet_size
+        return self.slot * self.run.problem.fleet_size
 
     @property
     def patience(self) -> float:
@@ -167,17 +167,17 @@ class Radio:
         if turn < t:
             turn += math.ceil((t - turn) / self.cycle) * self.cycle
         self._next_turn[auv] = turn + self.cycle
-        self.voyage.plan(turn, partial(self._transmit, auv))
+        self.run.schedule(turn, partial(self._transmit, auv))
 
     def _transmit(self, auv: int, t: float) -> None:
-        vessels, message = self.voyage.vessels, self._waiting[auv].popleft()
+        vessels, message = self.run.vessels, self._waiting[auv].popleft()
         if not vessels[auv].is_alive:
             self._waiting[auv].clear()
             return
-        bits = message.bits(self.voyage.problem.n)
+        bits = message.bits(self.run.problem.n)
         frame = Frame(self.sent, auv, message.receiver, message.says, bits)
         self.sent += 1
-        self.voyage.note(t, auv, "send", frame=frame)
+        self.run.note(t, auv, "send", frame=frame)
         here = self._position(vessels[auv], t)
         spoken = t + bits / self.channel.bit_rate
         for other in range(len(vessels)):
@@ -188,14 +188,14 @@ class Radio:
                 continue
             late = self.channel.jitter * float(self.rng.random()) if self.channel.jitter else 0.0
             heard = spoken + distance / SOUND_SPEED + late
-            self.voyage.plan(heard, partial(self._deliver, other, message, frame))
+            self.run.schedule(heard, partial(self._deliver, other, message, frame))
         if self._waiting[auv]:
             self._take_turn(auv, t)
 
     def _deliver(self, auv: int, message: Message, frame: Frame, t: float) -> None:
-        if self.voyage.vessels[auv].is_alive:
+        if self.run.vessels[auv].is_alive:
             self.delivered += 1
-            self.voyage.note(t, auv, "receive", frame=frame)
+            self.run.note(t, auv, "receive", frame=frame)
             self.hear(t, auv, message)
 
     def _is_lost(self, sender: int, receiver: int) -> bool:

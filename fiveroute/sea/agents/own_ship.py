@@ -17,7 +17,7 @@ from fiveroute.sea.agents.messages import Message, Report
 from fiveroute.sea.courses.course import Course, Outlook
 from fiveroute.sea.courses.picking import Offers, offers
 from fiveroute.sea.events import Kind
-from fiveroute.sea.voyage import Vessel, Voyage, course_of
+from fiveroute.sea.run import Run, Vessel, course_of
 
 __all__ = ["OwnShip"]
 
@@ -30,7 +30,7 @@ class OwnShip:
     ----------
     number
         The AUV, counted from 0.
-    voyage
+    run
         The run; the AUV looks at its own vessel only.
     radio
         The channel.
@@ -43,7 +43,7 @@ class OwnShip:
     """
 
     number: int
-    voyage: Voyage
+    run: Run
     radio: Radio
     view: Outlook
     holdings: Holdings
@@ -52,12 +52,12 @@ class OwnShip:
     @property
     def vessel(self) -> Vessel:
         """Where it really is."""
-        return self.voyage.vessels[self.number]
+        return self.run.vessels[self.number]
 
     @property
     def is_homebound(self) -> bool:
         """Whether it has set out for the destination, or is there."""
-        return self.vessel.target == self.voyage.problem.destination
+        return self.vessel.target == self.run.problem.destination
 
     def course(self, t: float) -> Course:
         """What it has before it."""
@@ -97,8 +97,8 @@ class OwnShip:
             if self.vessel.is_alive:
                 action(now)
 
-        self.voyage.plan(t, act)
+        self.run.schedule(t, act)
 
     def note(self, t: float, kind: Kind, node: int) -> None:
         """Write into the log of the run."""
-        self.voyage.note(t, self.number, kind, node)
+        self.run.note(t, self.number, kind, node)

@@ -22,7 +22,7 @@ from fiveroute.errors import InputError
 from fiveroute.kernels import kernel
 from fiveroute.sea.courses.course import Outlook
 from fiveroute.sea.courses.recourse import gain_of, gains, toll_home
-from fiveroute.sea.voyage import Voyage
+from fiveroute.sea.run import Run
 
 __all__ = ["MOST_NODES", "OptimalPolicy", "Steersman"]
 
@@ -74,17 +74,17 @@ class Steersman:
     ----------
     policy
         The policy.
-    voyage
+    run
         The run.
     """
 
-    def __init__(self, policy: OptimalPolicy, voyage: Voyage) -> None:
-        self.policy, self.voyage = policy, voyage
+    def __init__(self, policy: OptimalPolicy, run: Run) -> None:
+        self.policy, self.run = policy, run
         self.visited: tuple[int, ...] = ()
 
     def steer(self, auv: int, t: float) -> int:
         """The next vertex."""
-        vessel = self.voyage.vessels[auv]
+        vessel = self.run.vessels[auv]
         vertex = self.policy.next_stop(self.visited, vessel.at, vessel.budget - t)
         self.visited = (*self.visited, vertex)
         return vertex

@@ -14,7 +14,7 @@ from fiveroute.sea.agents.watch import SILENCE
 from fiveroute.sea.courses.course import Course, Outlook
 from fiveroute.sea.courses.discarding import discard
 from fiveroute.sea.courses.recourse import reconsider, with_recourse
-from fiveroute.sea.voyage import Voyage, course_of
+from fiveroute.sea.run import Run, course_of
 
 __all__ = ["AllKnowing"]
 
@@ -24,7 +24,7 @@ class AllKnowing:
 
     Parameters
     ----------
-    voyage
+    run
         The run.
     view
         What the AUVs expect.
@@ -35,30 +35,30 @@ class AllKnowing:
     looks_ahead: ClassVar[bool] = False
     """Whether it calls `replan`, and so keeps the reserve of those that look ahead."""
 
-    def __init__(self, voyage: Voyage, view: Outlook, plan: Plan) -> None:
-        self.voyage = voyage
+    def __init__(self, run: Run, view: Outlook, plan: Plan) -> None:
+        self.run = run
         self.view = with_recourse(view) if self.looks_ahead else view
         self.routes: list[Route] = list(plan.routes)
-        self.idle = set(plan.idle(voyage.problem))
+        self.idle = set(plan.idle(run.problem))
 
     @property
     def destination(self) -> int:
         """The destination vertex."""
-        return self.voyage.problem.destination
+        return self.run.problem.destination
 
     @property
     def active(self) -> list[int]:
         """AUVs that may still take a node."""
-        vessels = self.voyage.vessels
+        vessels = self.run.vessels
         return [m for m, v in enumerate(vessels) if v.is_active and v.target != self.destination]
 
     def course(self, auv: int, t: float) -> Course:
         """What an AUV has before it."""
-        return course_of(self.view, self.voyage.vessels[auv], t, self.routes[auv])
+        return course_of(self.view, self.run.vessels[auv], t, self.routes[auv])
 
     def at_node(self, auv: int, t: float) -> Course:
         """What an AUV has before it that has just reached a node."""
-        vessel = self.voyage.vessels[auv]
+        vessel = self.run.vessels[auv]
         vessel.target = vessel.at
         return self.course(auv, t)
 
@@ -67,7 +67,7 @@ class AllKnowing:
         course, dropped = discard(self.view, self.at_node(auv, t))
         self.routes[auv] = course.route
         for node in dropped:
-            self.voyage.note(t, auv, "discard", node)
+            self.run.note(t, auv, "discard", node)
         return course, dropped
 
     def replan(self, auv: int, t: float, idle: Collection[int]) -> None:
@@ -76,7 +76,7 @@ class AllKnowing:
         after, left_over = reconsider(self.view, before, idle)
         dropped = set(before.route).intersection(left_over)
         for node in sorted(dropped):
-            self.voyage.note(t, auv, "discard", node)
+            self.run.note(t, auv, "discard", node)
         self.set_route(auv, t, after.route)
         self.idle.update(dropped)
         self.idle.difference_update(after.route)
@@ -84,14 +84,14 @@ class AllKnowing:
     def set_route(self, auv: int, t: float, route: Route) -> None:
         """Give an AUV another route; what is new on it has been picked up."""
         for node in sorted(set(route) - set(self.routes[auv])):
-            self.voyage.note(t, auv, "pick_up", node)
+            self.run.note(t, auv, "pick_up", node)
         self.routes[auv] = route
 
     def abandoned(self, t: float) -> Route:
         """Take the nodes of AUVs that failed long enough ago to be noticed off their routes."""
         nodes: list[int] = []
-        for m, vessel in enumerate(self.voyage.vessels):
-            if vessel.is_alive or t < self.voyage.failures[m] + SILENCE:
+        for m, vessel in enumerate(self.run.vessels):
+            if vessel.is_alive or t < self.run.failures[m] + SILENCE:
                 continue
             if vessel.target not in (vessel.at, self.destination):
                 nodes.append(vessel.target)

@@ -15,7 +15,7 @@ from fiveroute.routes import Plan
 from fiveroute.sea.courses.course import Outlook, Stops
 from fiveroute.sea.courses.discarding import discard, shed
 from fiveroute.sea.luck import leg_luck
-from fiveroute.sea.voyage import Voyage, course_of
+from fiveroute.sea.run import Run, course_of
 from fiveroute.tiers.actuation import LegLaw
 
 __all__ = ["Alone", "sail_alone"]
@@ -26,7 +26,7 @@ class Alone:
 
     Parameters
     ----------
-    voyage
+    run
         The run.
     view
         What the AUVs expect.
@@ -34,19 +34,19 @@ class Alone:
         What they set out with.
     """
 
-    def __init__(self, voyage: Voyage, view: Outlook, plan: Plan) -> None:
-        self._voyage, self._view = voyage, view
+    def __init__(self, run: Run, view: Outlook, plan: Plan) -> None:
+        self._run, self._view = run, view
         self._routes = list(plan.routes)
 
     def steer(self, auv: int, t: float) -> int:
         """The next vertex of an AUV."""
-        vessel = self._voyage.vessels[auv]
+        vessel = self._run.vessels[auv]
         vessel.target = vessel.at
         course, dropped = discard(self._view, course_of(self._view, vessel, t, self._routes[auv]))
         for node in dropped:
-            self._voyage.note(t, auv, "discard", node)
+            self._run.note(t, auv, "discard", node)
         self._routes[auv] = course.route[1:]
-        return course.route[0] if course.route else self._voyage.problem.destination
+        return course.route[0] if course.route else self._run.problem.destination
 
     def come_home(self, auv: int, t: float) -> None:
         """Nothing is left to do."""

@@ -37,7 +37,7 @@ from fiveroute.sea.agents.watch import SILENCE
 from fiveroute.sea.courses.course import Course, Outlook
 from fiveroute.sea.courses.picking import offers
 from fiveroute.sea.courses.replanning import TRIALS, replan
-from fiveroute.sea.voyage import Voyage, course_of
+from fiveroute.sea.run import Run, course_of
 
 __all__ = ["BEAT", "Cbba"]
 
@@ -50,7 +50,7 @@ class Cbba:
 
     Parameters
     ----------
-    voyage
+    run
         The run.
     view
         What the AUVs expect.
@@ -68,7 +68,7 @@ class Cbba:
 
     def __init__(
         self,
-        voyage: Voyage,
+        run: Run,
         view: Outlook,
         plan: Plan,
         *,
@@ -77,9 +77,9 @@ class Cbba:
         rng: np.random.Generator,
         silence: float = SILENCE,
     ) -> None:
-        self.radio = Radio(voyage, channel, points, rng, self._hear)
+        self.radio = Radio(run, channel, points, rng, self._hear)
         self.agents = [
-            _Agent(auv, voyage, self.radio, view, plan, silence) for auv in range(len(plan.routes))
+            _Agent(auv, run, self.radio, view, plan, silence) for auv in range(len(plan.routes))
         ]
 
     @property
@@ -106,13 +106,13 @@ class _Agent:
     def __init__(
         self,
         number: int,
-        voyage: Voyage,
+        run: Run,
         radio: Radio,
         view: Outlook,
         plan: Plan,
         silence: float,
     ) -> None:
-        vertices, fleet = voyage.problem.n + 2, len(plan.routes)
+        vertices, fleet = run.problem.n + 2, len(plan.routes)
         self.number, self.route = number, list(plan.routes[number])
         self.beliefs = Beliefs(number, [NOBODY] * vertices, [0.0] * vertices, [0.0] * fleet)
         for auv, route in enumerate(plan.routes):
@@ -121,12 +121,12 @@ class _Agent:
         self.bundle = Bundle(self, self.beliefs)
         self.target: int | None = None
         self.false_takeovers = 0
-        self._voyage, self._radio, self._view = voyage, radio, view
-        self._vessel, self._silence = voyage.vessels[number], silence
+        self._run, self._radio, self._view = run, radio, view
+        self._vessel, self._silence = run.vessels[number], silence
         self._now = self._spoken = 0.0
         self._is_to_speak = False
         self._claimed: dict[int, float] = {}
-        voyage.plan(BEAT, self._beat)
+        run.schedule(BEAT, self._beat)
 
     # What its bundle asks of it.
 
@@ -145,7 +145,7 @@ class _Agent:
         """Take a node off the route."""
         self.route.remove(node)
         if self._claimed.pop(node, None) is None:
-            self._voyage.note(self._now, self.number, "discard", node)
+            self._run.note(self._now, self.number, "discard", node)
 
     # What happens to it.
 
@@ -158,7 +158,7 @@ class _Agent:
         self._replan()
         self.target = self.route.pop(0) if self.route else None
         vessel.left = t
-        vessel.target = self._voyage.problem.destination
+        vessel.target = self._run.problem.destination
         if self.target is not None:
             self.beliefs.claim(self.target, HELD)
             if self.target in self.bundle.nodes:
@@ -177,7 +177,7 @@ class _Agent:
         self.route[:] = [node for node in self.route if winners[node] == self.number]
         if not self._is_to_speak:
             self._is_to_speak = True
-            self._voyage.plan(max(t, self._spoken + self._radio.cycle), self._speak_up)
+            self._run.schedule(max(t, self._spoken + self._radio.cycle), self._speak_up)
 
     def speak(self, t: float) -> None:
         """Tell all that it believes."""
@@ -188,7 +188,7 @@ class _Agent:
 
     @property
     def _is_homebound(self) -> bool:
-        return self._vessel.target == self._voyage.problem.destination
+        return self._vessel.target == self._run.problem.destination
 
     def _course(self) -> Course:
         return course_of(self._view, self._vessel, self._now, tuple(self.route))
@@ -197,7 +197,7 @@ class _Agent:
         """The best course over its own and idle nodes that begins with a node of its own."""
         beliefs, course = self.beliefs, self._course()
         idle = [n for n in range(1, len(beliefs.winners) - 1) if beliefs.winners[n] == NOBODY]
-        seed = (self._voyage.luck.run * 997 + self.number) * 997 + len(self._voyage.log)
+        seed = (self._run.luck.run * 997 + self.number) * 997 + len(self._run.log)
         better, _ = replan(self._view, course, idle, TRIALS, seed)
         fresh = {*idle, *self._unsettled()}
         if better.route and better.route[0] in fresh:
@@ -216,7 +216,7 @@ class _Agent:
     def _settle(self) -> None:
         """Log nodes as picked up that nobody has objected to in time."""
         for node in sorted(self._claimed.keys() - self._unsettled()):
-            self._voyage.note(self._now, self.number, "pick_up", node)
+            self._run.note(self._now, self.number, "pick_up", node)
             del self._claimed[node]
 
     def _discard(self, nodes: Collection[int]) -> None:
@@ -224,7 +224,7 @@ class _Agent:
         for node in sorted(nodes):
             self.beliefs.forget(node)
             if self._claimed.pop(node, None) is None:
-                self._voyage.note(self._now, self.number, "discard", node)
+                self._run.note(self._now, self.number, "discard", node)
             if node in self.bundle.nodes:
                 self.bundle.nodes.remove(node)
 
@@ -249,12 +249,12 @@ class _Agent:
     def _beat(self, t: float) -> None:
         """Now and then: a sign of life, and a look for signs of others."""
         self._now = t
-        if not self._vessel.is_alive or t > self._voyage.problem.budgets.max():
+        if not self._vessel.is_alive or t > self._run.problem.budgets.max():
             return
         if t - self._spoken >= BEAT:
             self.speak(t)
         self._look_round(t)
-        self._voyage.plan(t + BEAT, self._beat)
+        self._run.schedule(t + BEAT, self._beat)
 
     def _look_round(self, t: float) -> None:
         """Let nodes of teammates go that nobody has heard of for too long."""
@@ -265,6 +265,6 @@ class _Agent:
             for node, winner in enumerate(beliefs.winners):
                 if winner == auv and beliefs.bids[node] != COLLECTED:
                     beliefs.forget(node)
-                    self.false_takeovers += self._voyage.vessels[auv].is_alive
+                    self.false_takeovers += self._run.vessels[auv].is_alive
         if self._silence < float("inf") and self.bundle.build():
             self.speak(t)

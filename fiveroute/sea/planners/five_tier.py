@@ -21,7 +21,7 @@ from fiveroute.sea.agents.messages import Message
 from fiveroute.sea.agents.watch import SILENCE
 from fiveroute.sea.courses.course import Outlook
 from fiveroute.sea.courses.recourse import with_recourse
-from fiveroute.sea.voyage import Voyage
+from fiveroute.sea.run import Run
 
 __all__ = ["FiveTier", "ShortSighted"]
 
@@ -31,7 +31,7 @@ class FiveTier:
 
     Parameters
     ----------
-    voyage
+    run
         The run.
     view
         What the AUVs expect.
@@ -52,7 +52,7 @@ class FiveTier:
 
     def __init__(
         self,
-        voyage: Voyage,
+        run: Run,
         view: Outlook,
         plan: Plan,
         *,
@@ -61,10 +61,10 @@ class FiveTier:
         rng: np.random.Generator,
         silence: float = SILENCE,
     ) -> None:
-        self._voyage = voyage
-        self.radio = Radio(voyage, channel, points, rng, self._hear)
+        self._run = run
+        self.radio = Radio(run, channel, points, rng, self._hear)
         self.takeovers = self.false_takeovers = 0
-        keepers = first_keepers(voyage.problem, plan)
+        keepers = first_keepers(run.problem, plan)
         books = [
             Holdings(list(route), {node for node, keeper in keepers.items() if keeper == auv})
             for auv, route in enumerate(plan.routes)
@@ -72,7 +72,7 @@ class FiveTier:
         view = with_recourse(view) if self.looks_ahead else view
         estates = {auv: book.mine for auv, book in enumerate(books)}
         self.agents = [
-            Agent(auv, voyage, self.radio, view, book, estates, silence, self._note_takeover)
+            Agent(auv, run, self.radio, view, book, estates, silence, self._note_takeover)
             for auv, book in enumerate(books)
         ]
 
@@ -91,7 +91,7 @@ class FiveTier:
         """Count a takeover if its belief is false: the node is not abandoned."""
         holders = [
             agent
-            for agent, vessel in zip(self.agents, self._voyage.vessels, strict=True)
+            for agent, vessel in zip(self.agents, self._run.vessels, strict=True)
             if (vessel.is_alive and node in agent.holdings.mine) or node in agent.holdings.done
         ]
         self.takeovers += 1

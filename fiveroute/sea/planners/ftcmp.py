@@ -46,5 +46,5 @@ class Ftcmp(AllKnowing):
 
     def _distance(self, auv: int, node: int) -> float:
         """Least expected leg from what remains of a route to a node, in seconds."""
-        stops = [self.voyage.vessels[auv].target, *self.routes[auv]]
+        stops = [self.run.vessels[auv].target, *self.routes[auv]]
         return float(self.view.legs[stops, node].min())

@@ -23,13 +23,13 @@ class ReOptimising(AllKnowing):
         self.idle.update(self.abandoned(t))
         here, active = self.at_node(auv, t), self.active
         courses = [here if m == auv else self.course(m, t) for m in active]
-        seed = self.voyage.luck.run * 997 + len(self.voyage.log)
+        seed = self.run.luck.run * 997 + len(self.run.log)
         routes = replan_fleet(self.view, courses, self.idle, seed)
         had = self.idle.union(*(course.route for course in courses))
         before, after = had - self.idle, set[int]().union(*routes)
         self.idle = had - after
         for node in sorted(before - after):
-            self.voyage.note(t, auv, "discard", node)
+            self.run.note(t, auv, "discard", node)
         for m, route in zip(active, routes, strict=True):
             self.set_route(m, t, route)
         return self.depart(auv)

@@ -35,7 +35,7 @@ class Rmmp(AllKnowing):
         course = self.at_node(auv, t)
         cell = self._cell(auv, t)
         own = tuple(node for node in course.route if node in cell)
-        seed = self.voyage.luck.run * 997 + auv
+        seed = self.run.luck.run * 997 + auv
         better, _ = replan(self.view, replace(course, route=own), cell, TRIALS, seed)
         self.idle.update(cell, course.route)
         self.idle.difference_update(better.route)
@@ -47,7 +47,7 @@ class Rmmp(AllKnowing):
 
     def _cell(self, auv: int, t: float) -> set[int]:
         """Unvisited nodes that lie nearest to what this AUV has before it."""
-        fleet, vessels = self.active, self.voyage.vessels
+        fleet, vessels = self.active, self.run.vessels
         nodes = np.array(sorted(self.idle.union(*(self.routes[m] for m in fleet))), dtype=np.int64)
         distance = np.empty((len(fleet), len(nodes)))
         for k, m in enumerate(fleet):

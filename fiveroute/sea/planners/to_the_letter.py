@@ -23,7 +23,7 @@ class ToTheLetter(AllKnowing):
         before = [here if m == auv else self.course(m, t) for m in active]
         courses, dropped, awards = coordinate(self.view, before, active.index(auv), self.idle)
         for node in dropped:
-            self.voyage.note(t, auv, "discard", node)
+            self.run.note(t, auv, "discard", node)
         self.idle.update(dropped)
         self.idle.difference_update(award.node for award in awards)
         for m, course in zip(active, courses, strict=True):

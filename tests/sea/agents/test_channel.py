@@ -11,7 +11,7 @@ from fiveroute.sea.agents.channel import PRESETS, SOUND_SPEED, Bursts, Channel, 
 from fiveroute.sea.agents.messages import Accept, Bid, Call, Message, Report, Wish
 from fiveroute.sea.events import Frame, arrivals_of
 from fiveroute.sea.luck import Luck
-from fiveroute.sea.voyage import Voyage
+from fiveroute.sea.run import Run
 from fiveroute.sea.world import World
 
 
@@ -38,19 +38,19 @@ class Stay:
         pass
 
 
-def fleet(world: World, channel: Channel, ears: Ears, size: int = 3) -> tuple[Voyage, Radio]:
+def fleet(world: World, channel: Channel, ears: Ears, size: int = 3) -> tuple[Run, Radio]:
     problem = world.problem.with_budgets([18_000.0] * size)
-    voyage = Voyage(problem, Luck(world.law, 1, 0), (math.inf,) * size)
-    return voyage, Radio(voyage, channel, world.points, np.random.default_rng(3), ears)
+    run = Run(problem, Luck(world.law, 1, 0), (math.inf,) * size)
+    return run, Radio(run, channel, world.points, np.random.default_rng(3), ears)
 
 
 def test_a_message_takes_its_bits_and_the_way_of_sound(world: World) -> None:
     ears = Ears()
-    voyage, radio = fleet(world, Channel(bit_rate=100.0), ears)
+    run, radio = fleet(world, Channel(bit_rate=100.0), ears)
     radio.send(0.0, Accept(0, 2, 1, 5))
-    voyage.vessels[2].at = voyage.vessels[2].target = 7
+    run.vessels[2].at = run.vessels[2].target = 7
     distance = np.hypot(*(world.points[7] - world.points[0]))
-    voyage.sail(Stay(world.problem.destination))
+    run.sail(Stay(world.problem.destination))
     ((t, auv, message),) = ears.heard
     assert (auv, message) == (2, Accept(0, 2, 1, 5))
     assert t == pytest.approx(68.0 / 100.0 + distance / SOUND_SPEED)
@@ -58,36 +58,36 @@ def test_a_message_takes_its_bits_and_the_way_of_sound(world: World) -> None:
 
 def test_everybody_hears_what_is_for_everybody_but_the_sender(world: World) -> None:
     ears = Ears()
-    voyage, radio = fleet(world, Channel(), ears)
+    run, radio = fleet(world, Channel(), ears)
     radio.send(0.0, Wish(1, None, frozenset({2})))
-    voyage.sail(Stay(world.problem.destination))
+    run.sail(Stay(world.problem.destination))
     assert sorted(auv for _, auv, _ in ears.heard) == [0, 2]
     assert (radio.sent, radio.delivered) == (1, 2)
 
 
 def test_the_log_pairs_who_speaks_with_who_hears(world: World) -> None:
     ears = Ears()
-    voyage, radio = fleet(world, Channel(loss=0.4), ears)
+    run, radio = fleet(world, Channel(loss=0.4), ears)
     radio.send(0.0, Wish(1, None, frozenset({2})))
     for number in range(20):
         radio.send(0.0, Accept(0, 2, number, 5))
-    voyage.sail(Stay(world.problem.destination))
-    sent = [event.frame for event in voyage.log if event.kind == "send"]
+    run.sail(Stay(world.problem.destination))
+    sent = [event.frame for event in run.log if event.kind == "send"]
     assert sent[0] == Frame(0, 0, 2, "accept", 68)
     assert sent[1] == Frame(1, 1, None, "wish", 36 + world.problem.n)
     assert [frame.number for frame in sent if frame] == list(range(21))
-    arrivals = arrivals_of(voyage.log)
+    arrivals = arrivals_of(run.log)
     heard = [(t, auv) for told in arrivals.values() for auv, t in told.items()]
     assert sorted(heard) == [(t, auv) for t, auv, _ in ears.heard]
     assert 0 < len(heard) < 21
 
 
 def test_an_auv_sends_in_its_turns_only(world: World) -> None:
-    voyage, radio = fleet(world, Channel(), Ears())
+    run, radio = fleet(world, Channel(), Ears())
     for auv in (2, 0, 0, 1):
         radio.send(0.0, Accept(auv, (auv + 1) % 3, 1, 5))
-    voyage.sail(Stay(world.problem.destination))
-    sent = [event for event in voyage.log if event.kind == "send"]
+    run.sail(Stay(world.problem.destination))
+    sent = [event for event in run.log if event.kind == "send"]
     assert [event.auv for event in sent] == [0, 1, 2, 0]
     turns = [0.0, radio.slot, 2.0 * radio.slot, radio.cycle]
     assert [event.t for event in sent] == pytest.approx(turns)
@@ -95,10 +95,10 @@ def test_an_auv_sends_in_its_turns_only(world: World) -> None:
 
 def test_nobody_is_heard_out_of_reach(world: World) -> None:
     ears = Ears()
-    voyage, radio = fleet(world, Channel(reach=100.0), ears)
-    voyage.vessels[2].at = voyage.vessels[2].target = 7
+    run, radio = fleet(world, Channel(reach=100.0), ears)
+    run.vessels[2].at = run.vessels[2].target = 7
     radio.send(0.0, Wish(0, None, frozenset()))
-    voyage.sail(Stay(world.problem.destination))
+    run.sail(Stay(world.problem.destination))
     assert [auv for _, auv, _ in ears.heard] == [1]
 
 
@@ -120,10 +120,10 @@ def test_as_much_is_lost_as_stated(world: World, channel: Channel, share: float)
 
 def test_delays_may_reorder(world: World) -> None:
     ears = Ears()
-    voyage, radio = fleet(world, Channel(jitter=300.0), ears)
+    run, radio = fleet(world, Channel(jitter=300.0), ears)
     for number in range(8):
         radio.send(0.0, Accept(0, 1, number, 5))
-    voyage.sail(Stay(world.problem.destination))
+    run.sail(Stay(world.problem.destination))
     order = [m.transfer for _, _, m in ears.heard if isinstance(m, Accept)]
     assert sorted(order) == list(range(8)) != order
 

@@ -27,7 +27,7 @@ from fiveroute.sea.agents.watch import SILENCE
 from fiveroute.sea.courses.course import outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.five_tier import FiveTier
-from fiveroute.sea.voyage import Voyage
+from fiveroute.sea.run import Run
 from fiveroute.sea.world import World
 
 NONE: frozenset[int] = frozenset()
@@ -38,9 +38,9 @@ class Fleet:
 
     def __init__(self, world: World) -> None:
         problem = world.problem.with_budgets([60_000.0] * 3)
-        self.voyage = Voyage(problem, Luck(world.law, 1, 0), (math.inf,) * 3)
+        self.run = Run(problem, Luck(world.law, 1, 0), (math.inf,) * 3)
         self.crew = FiveTier(
-            self.voyage,
+            self.run,
             outlook(problem, world.law, 1.645),
             Plan.of([[1], [2], [3]]),
             channel=Channel(),

@@ -14,7 +14,7 @@ from fiveroute.sea.bounds.optimal_policy import OptimalPolicy, Steersman
 from fiveroute.sea.courses.course import Outlook
 from fiveroute.sea.courses.recourse import look_ahead, next_stop, with_recourse
 from fiveroute.sea.luck import Luck
-from fiveroute.sea.voyage import Voyage
+from fiveroute.sea.run import Run
 from fiveroute.sea.world import World
 
 
@@ -49,11 +49,11 @@ def test_it_gets_what_it_promises(seed: int) -> None:
     world = mission(6, 9000.0, seed)
     view = with_recourse(world.outlook(0.5))
     policy, problem, got = OptimalPolicy(view), world.problem, []
-    for run in range(600):
-        voyage = Voyage(problem, Luck(world.law, seed, run), (np.inf,))
-        voyage.sail(Steersman(policy, voyage))
-        nodes = [event.node for event in voyage.log if event.kind == "collect"]
-        late = voyage.log[-1].t > problem.budgets[0]
+    for number in range(600):
+        run = Run(problem, Luck(world.law, seed, number), (np.inf,))
+        run.sail(Steersman(policy, run))
+        nodes = [event.node for event in run.log if event.kind == "collect"]
+        late = run.log[-1].t > problem.budgets[0]
         got.append(sum(problem.profit[node] for node in nodes if node) - view.price * late)
     error = float(np.std(got)) / len(got) ** 0.5
     assert np.mean(got) == pytest.approx(policy.worth(9000.0), abs=3.0 * error + 0.1)

@@ -13,12 +13,12 @@ from fiveroute.sea.agents.watch import SILENCE
 from fiveroute.sea.courses.course import outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.cbba import Cbba
+from fiveroute.sea.run import Run
 from fiveroute.sea.simulation import failure_times, simulate_fleet
-from fiveroute.sea.voyage import Voyage
 from fiveroute.sea.world import World
 
 
-def random_mission(seed: int, loss: float = 0.0, failures: float = 0.0) -> tuple[Voyage, Cbba]:
+def random_mission(seed: int, loss: float = 0.0, failures: float = 0.0) -> tuple[Run, Cbba]:
     """A random small mission, sailed to its end."""
     rng = np.random.default_rng(seed)
     n, fleet = int(rng.integers(4, 20)), int(rng.integers(1, 6))
@@ -27,11 +27,9 @@ def random_mission(seed: int, loss: float = 0.0, failures: float = 0.0) -> tuple
     order = (rng.permutation(n) + 1).tolist()
     cuts = sorted(rng.integers(0, n // 2 + 1, size=fleet).tolist())
     plan = Plan.of(order[a:b] for a, b in zip([0, *cuts[:-1]], cuts, strict=True))
-    voyage = Voyage(
-        problem, Luck(world.law, seed, 0), failure_times(problem.budgets, failures, seed, 0)
-    )
+    run = Run(problem, Luck(world.law, seed, 0), failure_times(problem.budgets, failures, seed, 0))
     crew = Cbba(
-        voyage,
+        run,
         outlook(problem, world.law, 1.645),
         plan,
         channel=Channel(loss=loss),
@@ -39,60 +37,60 @@ def random_mission(seed: int, loss: float = 0.0, failures: float = 0.0) -> tuple
         rng=rng,
         silence=SILENCE if failures else math.inf,
     )
-    voyage.sail(crew)
-    return voyage, crew
+    run.sail(crew)
+    return run, crew
 
 
-def collections(voyage: Voyage) -> Counter[int]:
-    return Counter(e.node for e in voyage.log if e.kind == "collect" and e.node is not None)
+def collections(run: Run) -> Counter[int]:
+    return Counter(e.node for e in run.log if e.kind == "collect" and e.node is not None)
 
 
 def test_over_a_perfect_channel_nothing_is_collected_twice_and_all_agree() -> None:
     picked = 0
     for seed in range(120):
-        voyage, crew = random_mission(seed)
-        counts = collections(voyage)
+        run, crew = random_mission(seed)
+        counts = collections(run)
         assert max(counts.values(), default=1) == 1
-        assert Counter(e.kind for e in voyage.log)["arrive"] == len(crew.agents)
+        assert Counter(e.kind for e in run.log)["arrive"] == len(crew.agents)
         assert len({tuple(agent.beliefs.winners) for agent in crew.agents}) == 1
         believed = crew.agents[0].beliefs.bids
         assert {node for node, bid in enumerate(believed) if bid == COLLECTED} == counts.keys()
-        picked += sum(e.kind == "pick_up" for e in voyage.log)
+        picked += sum(e.kind == "pick_up" for e in run.log)
     assert picked > 100
 
 
 def test_over_a_bad_channel_the_fleet_still_comes_home() -> None:
     doubles = 0
     for seed in range(80):
-        voyage, crew = random_mission(seed, loss=0.7)
-        assert Counter(e.kind for e in voyage.log)["arrive"] == len(crew.agents)
-        doubles += sum(count - 1 for count in collections(voyage).values())
+        run, crew = random_mission(seed, loss=0.7)
+        assert Counter(e.kind for e in run.log)["arrive"] == len(crew.agents)
+        doubles += sum(count - 1 for count in collections(run).values())
     assert doubles < 40
 
 
 def test_a_failed_teammate_is_replaced(world: World) -> None:
     problem = world.problem.with_budgets([30_000.0, 30_000.0])
     plan = Plan.of([range(1, 13), range(13, 19)])
-    voyage = Voyage(problem, Luck(world.law, 1, 0), (10.0, math.inf))
+    run = Run(problem, Luck(world.law, 1, 0), (10.0, math.inf))
     crew = Cbba(
-        voyage,
+        run,
         outlook(problem, world.law, 1.645),
         plan,
         channel=Channel(),
         points=world.points,
         rng=np.random.default_rng(0),
     )
-    voyage.sail(crew)
-    inherited = set(range(1, 13)) & collections(voyage).keys()
+    run.sail(crew)
+    inherited = set(range(1, 13)) & collections(run).keys()
     assert inherited
     assert crew.false_takeovers == 0
-    assert all(e.t > SILENCE for e in voyage.log if e.kind == "collect" and e.node in inherited)
+    assert all(e.t > SILENCE for e in run.log if e.kind == "collect" and e.node in inherited)
 
 
 def test_whoever_fails_the_others_finish() -> None:
     for seed in range(80):
-        voyage, crew = random_mission(seed, loss=0.3, failures=0.4)
-        kinds = Counter(e.kind for e in voyage.log)
+        run, crew = random_mission(seed, loss=0.3, failures=0.4)
+        kinds = Counter(e.kind for e in run.log)
         assert kinds["arrive"] + kinds["fail"] == len(crew.agents)
 
 

@@ -16,13 +16,13 @@ from fiveroute.sea.courses.course import in_hand, outlook
 from fiveroute.sea.events import Frame, Kind
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.five_tier import FiveTier, first_keepers
+from fiveroute.sea.run import Run
 from fiveroute.sea.simulation import failure_times, simulate_fleet
-from fiveroute.sea.voyage import Voyage
 from fiveroute.sea.world import World
 
 
 @dataclass(slots=True)
-class WatchedVoyage(Voyage):
+class WatchedRun(Run):
     """A run in which somebody who sees all checks the agents at every event."""
 
     crew: FiveTier | None = None
@@ -37,7 +37,7 @@ class WatchedVoyage(Voyage):
         frame: Frame | None = None,
     ) -> None:
         """Write an event into the log, and look at everybody's book."""
-        super(WatchedVoyage, self).note(t, auv, kind, node, frame)
+        super(WatchedRun, self).note(t, auv, kind, node, frame)
         if self.crew is None:
             return
         if not self.may_fail:
@@ -55,7 +55,7 @@ def assert_one_right_a_node(crew: FiveTier) -> None:
     assert not rights or max(rights.values()) == 1
 
 
-def faulty_mission(seed: int, failures: float) -> tuple[WatchedVoyage, FiveTier]:
+def faulty_mission(seed: int, failures: float) -> tuple[WatchedRun, FiveTier]:
     """A random small mission over a random bad channel, sailed to its end."""
     rng = np.random.default_rng(seed)
     n, fleet = int(rng.integers(1, 20)), int(rng.integers(1, 6))
@@ -73,9 +73,9 @@ def faulty_mission(seed: int, failures: float) -> tuple[WatchedVoyage, FiveTier]
     )
     view = outlook(problem, world.law, float(rng.choice([0.0, 1.645])))
     fails = failure_times(problem.budgets, failures, seed, 0)
-    voyage = WatchedVoyage(problem, Luck(world.law, seed, 0), fails)
+    run = WatchedRun(problem, Luck(world.law, seed, 0), fails)
     crew = FiveTier(
-        voyage,
+        run,
         view,
         plan,
         channel=channel,
@@ -83,22 +83,22 @@ def faulty_mission(seed: int, failures: float) -> tuple[WatchedVoyage, FiveTier]
         rng=rng,
         silence=SILENCE if failures else math.inf,
     )
-    voyage.crew, voyage.may_fail = crew, failures > 0.0
-    voyage.sail(crew)
-    return voyage, crew
+    run.crew, run.may_fail = crew, failures > 0.0
+    run.sail(crew)
+    return run, crew
 
 
-def collections(voyage: Voyage) -> Counter[int]:
-    return Counter(e.node for e in voyage.log if e.kind == "collect" and e.node is not None)
+def collections(run: Run) -> Counter[int]:
+    return Counter(e.node for e in run.log if e.kind == "collect" and e.node is not None)
 
 
 def test_whatever_gets_lost_nothing_is_collected_twice() -> None:
     transfers = 0
     for seed in range(250):
-        voyage, crew = faulty_mission(seed, 0.0)
-        counts = collections(voyage)
+        run, crew = faulty_mission(seed, 0.0)
+        counts = collections(run)
         assert not counts or max(counts.values()) == 1
-        assert Counter(e.kind for e in voyage.log)["arrive"] == len(crew.agents)
+        assert Counter(e.kind for e in run.log)["arrive"] == len(crew.agents)
         assert crew.false_takeovers == 0
         transfers += sum(agent.auctioneer.transfers for agent in crew.agents)
     assert transfers > 100
@@ -107,10 +107,10 @@ def test_whatever_gets_lost_nothing_is_collected_twice() -> None:
 def test_whoever_fails_a_double_collection_follows_a_false_belief() -> None:
     taken_over = 0
     for seed in range(250):
-        voyage, crew = faulty_mission(seed, 0.4)
-        doubles = sum(count - 1 for count in collections(voyage).values())
+        run, crew = faulty_mission(seed, 0.4)
+        doubles = sum(count - 1 for count in collections(run).values())
         assert doubles <= crew.false_takeovers
-        kinds = Counter(e.kind for e in voyage.log)
+        kinds = Counter(e.kind for e in run.log)
         assert kinds["arrive"] + kinds["fail"] == len(crew.agents)
         taken_over += crew.takeovers
     assert taken_over > 30
@@ -122,10 +122,10 @@ def test_over_a_perfect_channel_every_node_stays_with_somebody() -> None:
         problem = world.problem.with_budgets([9000.0] * 3)
         plan = Plan.of([range(1, 5), range(5, 9), ()])
         view = outlook(problem, world.law, 1.645)
-        voyage = Voyage(problem, Luck(world.law, seed, 0), (math.inf,) * 3)
+        run = Run(problem, Luck(world.law, seed, 0), (math.inf,) * 3)
         rng = np.random.default_rng(0)
-        crew = FiveTier(voyage, view, plan, channel=Channel(), points=world.points, rng=rng)
-        voyage.sail(crew)
+        crew = FiveTier(run, view, plan, channel=Channel(), points=world.points, rng=rng)
+        run.sail(crew)
         assert_one_right_a_node(crew)
         known = frozenset[int]().union(*(a.holdings.mine | a.holdings.done for a in crew.agents))
         assert known == frozenset(range(1, 13))
@@ -138,15 +138,15 @@ def test_a_failed_teammate_is_replaced(world: World) -> None:
     problem = instance.problem(2).with_budgets([30_000.0, 30_000.0])
     plan = Plan.of([range(1, 13), range(13, 19)])
     view = outlook(problem, world.law, 1.645)
-    voyage = Voyage(problem, Luck(world.law, 1, 0), (10.0, math.inf))
+    run = Run(problem, Luck(world.law, 1, 0), (10.0, math.inf))
     rng = np.random.default_rng(0)
-    crew = FiveTier(voyage, view, plan, channel=Channel(), points=world.points, rng=rng)
-    voyage.sail(crew)
+    crew = FiveTier(run, view, plan, channel=Channel(), points=world.points, rng=rng)
+    run.sail(crew)
     assert crew.takeovers > 0
     assert crew.false_takeovers == 0
-    inherited = set(range(1, 13)) & collections(voyage).keys()
+    inherited = set(range(1, 13)) & collections(run).keys()
     assert inherited
-    assert all(e.t > SILENCE for e in voyage.log if e.kind == "collect" and e.node in inherited)
+    assert all(e.t > SILENCE for e in run.log if e.kind == "collect" and e.node in inherited)
 
 
 def test_an_auction_takes_few_messages() -> None:
@@ -155,14 +155,14 @@ def test_an_auction_takes_few_messages() -> None:
         world = World.of(generate(nodes=9, seed=seed, fleet_size=4))
         plan = Plan.of([[6], [7], [8], [9]])
         view = outlook(world.problem, world.law, 1.645)
-        voyage = Voyage(world.problem, Luck(world.law, seed, 0), (math.inf,) * 4)
+        run = Run(world.problem, Luck(world.law, seed, 0), (math.inf,) * 4)
         rng = np.random.default_rng(0)
-        crew = FiveTier(voyage, view, plan, channel=Channel(), points=world.points, rng=rng)
+        crew = FiveTier(run, view, plan, channel=Channel(), points=world.points, rng=rng)
         for agent in crew.agents:
             agent.holdings.kept.clear()
         crew.agents[0].holdings.kept.update(range(1, 6))
-        voyage.sail(crew)
-        messages = Counter(e.auv for e in voyage.log if e.kind == "send" and e.t < BEAT)
+        run.sail(crew)
+        messages = Counter(e.auv for e in run.log if e.kind == "send" and e.t < BEAT)
         assert max(messages.values()) <= 20
         assert_one_right_a_node(crew)
 

@@ -18,7 +18,7 @@ from fiveroute.sea.planners.own_pick_up import OwnPickUp
 from fiveroute.sea.planners.re_optimising import ReOptimising
 from fiveroute.sea.planners.rmmp import Rmmp
 from fiveroute.sea.planners.to_the_letter import ToTheLetter
-from fiveroute.sea.voyage import Voyage
+from fiveroute.sea.run import Run
 from fiveroute.sea.world import World
 
 Knowing = type[Ftcmp | OfOneMind | OwnPickUp | ReOptimising | Rmmp | ToTheLetter]
@@ -31,19 +31,19 @@ def sail(
     plan: Plan,
     budgets: list[float],
     failures: tuple[float, ...] | None = None,
-    run: int = 0,
-) -> Voyage:
+    number: int = 0,
+) -> Run:
     problem = world.problem.with_budgets(budgets)
     view = outlook(problem, world.law, 1.645)
-    voyage = Voyage(problem, Luck(world.law, 1, run), failures or (math.inf,) * len(budgets))
-    voyage.sail(kind(voyage, view, plan))
-    return voyage
+    run = Run(problem, Luck(world.law, 1, number), failures or (math.inf,) * len(budgets))
+    run.sail(kind(run, view, plan))
+    return run
 
 
-def collected(voyage: Voyage, auv: int | None = None) -> set[int]:
+def collected(run: Run, auv: int | None = None) -> set[int]:
     return {
         e.node
-        for e in voyage.log
+        for e in run.log
         if e.kind == "collect" and e.node is not None and auv in (None, e.auv)
     }
 
@@ -51,11 +51,11 @@ def collected(voyage: Voyage, auv: int | None = None) -> set[int]:
 @pytest.mark.parametrize("kind", KNOWING)
 def test_who_has_time_takes_the_nodes_of_the_failed(kind: Knowing, world: World) -> None:
     plan = Plan.of([range(1, 13), range(13, 19)])
-    voyage = sail(kind, world, plan, [40_000.0, 40_000.0], (10.0, math.inf))
-    assert collected(voyage, 0) == set()
-    given_up = {e.node for e in voyage.log if e.kind == "discard" and e.auv == 0}
+    run = sail(kind, world, plan, [40_000.0, 40_000.0], (10.0, math.inf))
+    assert collected(run, 0) == set()
+    given_up = {e.node for e in run.log if e.kind == "discard" and e.auv == 0}
     lost = set(range(1, 13)) - given_up
-    inherited = [e.t for e in voyage.log if e.kind == "collect" and e.node in lost]
+    inherited = [e.t for e in run.log if e.kind == "collect" and e.node in lost]
     assert inherited
     if kind not in (Rmmp, ReOptimising):
         assert min(inherited) > SILENCE
@@ -63,19 +63,19 @@ def test_who_has_time_takes_the_nodes_of_the_failed(kind: Knowing, world: World)
 
 def test_ftcmp_hands_over_what_a_fault_drops_and_nothing_else(world: World) -> None:
     plan = Plan.of([range(1, 13), [13, 14]])
-    voyage = sail(Ftcmp, world, plan, [9000.0, 40_000.0])
-    dropped = {e.node for e in voyage.log if e.kind == "discard" and e.auv == 0}
-    handed = {e.node for e in voyage.log if e.kind == "pick_up" and e.auv == 1}
+    run = sail(Ftcmp, world, plan, [9000.0, 40_000.0])
+    dropped = {e.node for e in run.log if e.kind == "discard" and e.auv == 0}
+    handed = {e.node for e in run.log if e.kind == "pick_up" and e.auv == 1}
     assert handed
     assert handed <= dropped
-    assert collected(voyage) <= set(range(1, 15))
+    assert collected(run) <= set(range(1, 15))
 
 
 def test_rmmp_shares_all_unvisited_nodes_out(world: World) -> None:
     plan = Plan.of([range(1, 9), range(9, 17)])
     problem = world.problem
     view = outlook(problem, world.law, 1.645)
-    crew = Rmmp(Voyage(problem, Luck(world.law, 1, 0), (math.inf, math.inf)), view, plan)
+    crew = Rmmp(Run(problem, Luck(world.law, 1, 0), (math.inf, math.inf)), view, plan)
     cells = [crew._cell(auv, 0.0) for auv in range(2)]
     assert cells[0] | cells[1] == set(range(1, 25))
     assert not cells[0] & cells[1]
@@ -94,21 +94,21 @@ def test_a_plan_in_time_is_left_alone_by_the_faithful() -> None:
     world = World.of(generate(nodes=10, seed=4), 2)
     plan = Plan.of([range(1, 6), range(6, 11)])
     for kind in (Ftcmp, ToTheLetter):
-        voyage = sail(kind, world, plan, [1e6, 1e6])
-        order = [e.node for e in voyage.log if e.kind == "collect" and e.auv == 0]
+        run = sail(kind, world, plan, [1e6, 1e6])
+        order = [e.node for e in run.log if e.kind == "collect" and e.auv == 0]
         assert order == [1, 2, 3, 4, 5]
-        assert Counter(e.kind for e in voyage.log)["discard"] == 0
+        assert Counter(e.kind for e in run.log)["discard"] == 0
 
 
 def test_the_state_of_the_fleet_is_shared(world: World) -> None:
     plan = Plan.of([[1, 2], [3]])
-    voyage = Voyage(world.problem, Luck(world.law, 1, 0), (math.inf, 5.0))
-    crew = AllKnowing(voyage, outlook(world.problem, world.law, 0.0), plan)
+    run = Run(world.problem, Luck(world.law, 1, 0), (math.inf, 5.0))
+    crew = AllKnowing(run, outlook(world.problem, world.law, 0.0), plan)
     assert crew.idle == set(range(4, 25))
     assert crew.depart(0) == 1
     assert crew.routes[0] == (2,)
-    voyage.vessels[1].is_alive = False
-    voyage.vessels[1].target = 7
+    run.vessels[1].is_alive = False
+    run.vessels[1].target = 7
     assert crew.abandoned(SILENCE) == ()
     assert crew.abandoned(SILENCE + 5.0) == (7, 3)
     assert crew.abandoned(SILENCE + 6.0) == ()

@@ -21,7 +21,7 @@ from fiveroute.sea.events import Event, Frame, Kind
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.sailed_luck import SailedLuck
 
-__all__ = ["Crew", "Vessel", "Voyage", "course_of"]
+__all__ = ["Crew", "Run", "Vessel", "course_of"]
 
 Action = Callable[[float], None]
 """Something that happens; it is told the time in seconds."""
@@ -77,7 +77,7 @@ class Vessel:
 
 
 @dataclass(slots=True)
-class Voyage:
+class Run:
     """One run of a mission.
 
     Parameters
@@ -116,7 +116,7 @@ class Voyage:
         """Write an event into the log."""
         self.log.append(Event(t, auv, kind, node, frame))
 
-    def plan(self, t: float, action: Action) -> None:
+    def schedule(self, t: float, action: Action) -> None:
         """Let something happen at a time in seconds."""
         heapq.heappush(self._agenda, (t, self._count, action))
         self._count += 1
@@ -125,9 +125,9 @@ class Voyage:
         """Sail until nothing is left to happen."""
         for auv, fails in enumerate(self.failures):
             if fails < float("inf"):
-                self.plan(fails, partial(self._fail, auv))
+                self.schedule(fails, partial(self._fail, auv))
             self.note(0.0, auv, "depart")
-            self.plan(0.0, partial(self._leave, crew, auv))
+            self.schedule(0.0, partial(self._leave, crew, auv))
         while self._agenda:
             t, _, action = heapq.heappop(self._agenda)
             action(t)
@@ -141,9 +141,9 @@ class Voyage:
         vessel.sailed.append((vessel.at, target, t))
         vessel.target, vessel.left, vessel.due = target, t, t + leg.time
         for moment in leg.moments:
-            self.plan(t + moment, partial(self._manoeuvre, auv))
+            self.schedule(t + moment, partial(self._manoeuvre, auv))
         end = partial(self._reach, crew, auv) if leg.arrives else partial(self._fail, auv)
-        self.plan(vessel.due, end)
+        self.schedule(vessel.due, end)
 
     def _reach(self, crew: Crew, auv: int, t: float) -> None:
         vessel = self.vessels[auv]
@@ -155,7 +155,7 @@ class Voyage:
             crew.come_home(auv, t)
             return
         done = t + float(self.problem.service[vessel.target])
-        self.plan(done, partial(self._collect, crew, auv))
+        self.schedule(done, partial(self._collect, crew, auv))
 
     def _collect(self, crew: Crew, auv: int, t: float) -> None:
         vessel = self.vessels[auv]
