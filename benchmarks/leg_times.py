@@ -21,7 +21,7 @@ import numpy as np
 from fiveroute.formats import read_instance
 from fiveroute.instance import Circle, Currents, Instance, Ocean, Vortex
 from fiveroute.ocean.stated import stated_current
-from fiveroute.paths.stencil import grid_path
+from fiveroute.paths.reference_path import grid_path
 from fiveroute.tiers.pathing import plan_legs, waters_of
 
 

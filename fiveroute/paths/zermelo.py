@@ -15,6 +15,13 @@ are found by Newton's method, in a narrower fan if it fails. The fastest path is
 that hits the goal first. The current's derivatives are central differences of its interpolation,
 over a thousandth of a cell.
 
+In water that moves at c everywhere the heading stays as it is, and the path is the straight leg d.
+Its time solves |d - c T| = V T,
+
+    T = d^2 / (c.d + sqrt((c.d)^2 + (V^2 - c^2) d^2)),
+
+unless |c| >= V and d points out of the cone that the current leaves: then there is none.
+
 References
 ----------
 E. Zermelo, "Über das Navigationsproblem bei ruhender oder veränderlicher Windverteilung",
@@ -36,7 +43,7 @@ from fiveroute.kernels import kernel
 from fiveroute.ocean.current_grid import CurrentGrid, velocity
 from fiveroute.paths.legs import Waters, track_time
 
-__all__ = ["Extremal", "zermelo_path"]
+__all__ = ["Extremal", "extremal", "uniform_flow_time", "zermelo_path"]
 
 Flags = NDArray[np.bool_]
 Floats = NDArray[np.float64]
@@ -92,6 +99,30 @@ class _Fan(NamedTuple):
     width: float
     gaps: int
     horizon: float
+
+
+def uniform_flow_time(u: float, v: float, east: float, north: float, speed: float) -> float:
+    """Least time in seconds to a place in uniform flow; infinite if the flow carries past it.
+
+    Parameters
+    ----------
+    u, v
+        Velocity of the water in metres per second.
+    east, north
+        The place as seen from the start, in metres.
+    speed
+        Speed through the water in metres per second.
+    """
+    squared = east**2 + north**2
+    if squared == 0.0:
+        return 0.0
+    along, surplus = u * east + v * north, speed**2 - u**2 - v**2
+    root = along**2 + surplus * squared
+    if along < 0.0:  # the same without the difference of two near numbers
+        return (math.sqrt(root) - along) / surplus if surplus > 0.0 else math.inf
+    if root < 0.0 or along + math.sqrt(root) == 0.0:
+        return math.inf
+    return squared / (along + math.sqrt(root))
 
 
 def zermelo_path(

@@ -40,9 +40,9 @@ from fiveroute.paths.leg_cache import keep_table, kept_table, table_key
 from fiveroute.paths.leg_table import LegTable
 from fiveroute.paths.legs import Waters, track_clearance
 from fiveroute.paths.path import Path, track_path
-from fiveroute.paths.stencil import grid_path, grid_paths
+from fiveroute.paths.reference_path import grid_path, grid_paths
+from fiveroute.paths.straight_legs import are_straight
 from fiveroute.paths.thinning import thinned
-from fiveroute.paths.uniform_flow import are_straight
 from fiveroute.paths.voyage import Voyage
 
 __all__ = ["PlannedPath", "at_sea", "plan_legs", "plan_path", "waters_of"]

@@ -8,12 +8,14 @@ from hypothesis import strategies as st
 from fiveroute.ocean.barriers import no_barriers
 from fiveroute.ocean.current_grid import CurrentGrid, Region, grid_current
 from fiveroute.ocean.currents import DoubleGyre, LambVortices, Shear, UniformCurrent
-from fiveroute.paths.legs import Waters, track_time
-from fiveroute.paths.uniform_flow import uniform_flow_time
-from fiveroute.paths.zermelo import _Task, extremal, zermelo_path
+from fiveroute.paths.legs import Waters, leg_time, track_time
+from fiveroute.paths.zermelo import _Task, extremal, uniform_flow_time, zermelo_path
 
 SQUARE = Region(-500.0, -500.0, 5500.0, 5500.0)
 SHEAR = grid_current(Shear(2e-4, 2500.0), SQUARE)
+
+flows = st.floats(-3.0, 3.0)
+places = st.floats(-1000.0, 1000.0).filter(lambda metres: abs(metres) > 1e-3)
 
 
 def task(grid: CurrentGrid) -> _Task:
@@ -101,3 +103,41 @@ def test_a_shorter_horizon_finds_nothing() -> None:
 def test_a_path_to_the_start_takes_no_time() -> None:
     waters = Waters(vortices(1), no_barriers(), 1.0)
     assert zermelo_path(waters, (300.0, 400.0), (300.0, 400.0)).duration == 0.0
+
+
+@given(u=flows, v=flows, east=places, north=places)
+def test_uniform_flow_solves_its_quadratic(u: float, v: float, east: float, north: float) -> None:
+    time = uniform_flow_time(u, v, east, north, 1.0)
+    if math.isfinite(time):
+        missed = math.hypot(east - u * time, north - v * time)
+        assert missed == pytest.approx(time, rel=1e-6, abs=1e-6)
+
+
+@given(u=flows, v=flows, east=places, north=places)
+def test_uniform_flow_agrees_with_the_straight_leg(
+    u: float, v: float, east: float, north: float
+) -> None:
+    grid = grid_current(UniformCurrent(u, v), SQUARE, step=1000.0)
+    leg = leg_time(grid, 0.0, 0.0, east, north, 0.0, 1.0)
+    if math.isfinite(leg):
+        assert uniform_flow_time(u, v, east, north, 1.0) == pytest.approx(leg, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("flow", "east", "north", "time"),
+    [
+        (0.5, 300.0, 0.0, 200.0),
+        (-0.5, 300.0, 0.0, 600.0),
+        (-0.6, 0.0, 80.0, 100.0),
+        (2.0, 300.0, 0.0, 100.0),
+        (2.0, -300.0, 0.0, math.inf),
+        (2.0, 0.0, 300.0, math.inf),
+        (2.0, math.sqrt(3.0), 1.01, math.inf),
+        (1.0, 300.0, 0.0, 150.0),
+        (1.0, -300.0, 0.0, math.inf),
+        (1.0, 0.0, 300.0, math.inf),
+        (3.0, 0.0, 0.0, 0.0),
+    ],
+)
+def test_closed_form(flow: float, east: float, north: float, time: float) -> None:
+    assert uniform_flow_time(flow, 0.0, east, north, 1.0) == pytest.approx(time, rel=1e-12)

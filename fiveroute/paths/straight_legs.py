@@ -1,15 +1,9 @@
-r"""Straight legs: exact in uniform flow, and recognised where nothing else can be much faster.
+r"""Straight legs: recognised where nothing else can be much faster.
 
-In water that moves at c everywhere, the fastest path is the straight leg d. Its time solves
-|d - c T| = V T,
-
-    T = d^2 / (c.d + sqrt((c.d)^2 + (V^2 - c^2) d^2)),
-
-unless |c| >= V and d points out of the cone that the current leaves: then there is none.
-
-Elsewhere `straight_gaps` bounds by what share the straight leg, of time T and ground speed g, is
-slower than the fastest path, without searching for that. Let s run along the leg from -L/2 to
-L/2 and n across it. By a calibration (Carathéodory): if a function f has
+In uniform flow the straight leg is the fastest path (`fiveroute.paths.zermelo`). Elsewhere
+`straight_gaps` bounds by what share the straight leg, of time T and ground speed g, is slower than
+the fastest path, without searching for that. Let s run along the leg from -L/2 to L/2 and n across
+it. By a calibration (Carathéodory): if a function f has
 
     H(f) = V |grad f| + c . grad f <= 1 + E
 
@@ -55,58 +49,32 @@ from fiveroute.ocean.current_grid import CurrentGrid, velocity
 from fiveroute.paths.current_bounds import fastest_bound, gradient_within
 from fiveroute.paths.legs import Waters, leg_time
 
-__all__ = ["are_straight", "is_straight", "straight_gaps", "uniform_flow_time"]
+__all__ = ["are_straight", "straight_gaps"]
 
 Floats = NDArray[np.float64]
 
 _ROUNDS = 4  # of making the ellipse smaller
 
 
-def uniform_flow_time(u: float, v: float, east: float, north: float, speed: float) -> float:
-    """Least time in seconds to a place in uniform flow; infinite if the flow carries past it.
-
-    Parameters
-    ----------
-    u, v
-        Velocity of the water in metres per second.
-    east, north
-        The place as seen from the start, in metres.
-    speed
-        Speed through the water in metres per second.
-    """
-    squared = east**2 + north**2
-    if squared == 0.0:
-        return 0.0
-    along, surplus = u * east + v * north, speed**2 - u**2 - v**2
-    root = along**2 + surplus * squared
-    if along < 0.0:  # the same without the difference of two near numbers
-        return (math.sqrt(root) - along) / surplus if surplus > 0.0 else math.inf
-    if root < 0.0 or along + math.sqrt(root) == 0.0:
-        return math.inf
-    return squared / (along + math.sqrt(root))
-
-
-def is_straight(
-    waters: Waters, start: ArrayLike, goal: ArrayLike, *, tolerance: float = 1e-4
-) -> bool:
-    """Whether the straight leg is clear, and proved no slower than 1 + tolerance times the best.
+def are_straight(
+    waters: Waters, starts: ArrayLike, goals: ArrayLike, *, tolerance: float = 1e-4
+) -> NDArray[np.bool_]:
+    """Which straight legs are clear, and proved no slower than 1 + tolerance times the best.
 
     Parameters
     ----------
     waters
         The ocean and the vehicle.
-    start, goal
-        Positions in metres, shape (2,).
+    starts, goals
+        Positions in metres, shape (k, 2).
     tolerance
         Share of the best time.
+
+    Returns
+    -------
+    array
+        Shape (k,).
     """
-    return bool(are_straight(waters, np.atleast_2d(start), np.atleast_2d(goal), tolerance)[0])
-
-
-def are_straight(
-    waters: Waters, starts: ArrayLike, goals: ArrayLike, tolerance: float = 1e-4
-) -> NDArray[np.bool_]:
-    """The same of many legs, faster than one by one; `starts` and `goals` of shape (k, 2)."""
     tails, heads = np.array(starts, dtype=np.float64), np.array(goals, dtype=np.float64)
     straight = np.array(
         [

@@ -16,15 +16,12 @@ from fiveroute.ocean.currents import (
     Superposition,
     UniformCurrent,
 )
-from fiveroute.paths.legs import Waters, leg_time, track_time
-from fiveroute.paths.stencil import grid_path
-from fiveroute.paths.uniform_flow import are_straight, is_straight, straight_gaps, uniform_flow_time
+from fiveroute.paths.legs import Waters, track_time
+from fiveroute.paths.reference_path import grid_path
+from fiveroute.paths.straight_legs import are_straight, straight_gaps
 from fiveroute.paths.zermelo import zermelo_path
 
 SQUARE = Region(-500.0, -500.0, 5500.0, 5500.0)
-
-flows = st.floats(-3.0, 3.0)
-places = st.floats(-1000.0, 1000.0).filter(lambda metres: abs(metres) > 1e-3)
 
 
 def waters(current: Current) -> Waters:
@@ -35,49 +32,15 @@ def straight_gap(water: Waters, start: ArrayLike, goal: ArrayLike) -> float:
     return float(straight_gaps(water, np.atleast_2d(start), np.atleast_2d(goal))[0])
 
 
+def is_straight(water: Waters, start: ArrayLike, goal: ArrayLike) -> bool:
+    return bool(are_straight(water, np.atleast_2d(start), np.atleast_2d(goal))[0])
+
+
 def weak(seed: int, strength: float, flow: float = 0.0) -> Current:
     rng = np.random.default_rng(seed)
     x, y = rng.uniform(0.0, 5000.0, (2, 8))
     lamb = LambVortices(x, y, rng.normal(0.0, strength, 8), rng.uniform(300.0, 700.0, 8))
     return Superposition((lamb, UniformCurrent(*rng.normal(0.0, flow, 2))))
-
-
-@given(u=flows, v=flows, east=places, north=places)
-def test_uniform_flow_solves_its_quadratic(u: float, v: float, east: float, north: float) -> None:
-    time = uniform_flow_time(u, v, east, north, 1.0)
-    if math.isfinite(time):
-        missed = math.hypot(east - u * time, north - v * time)
-        assert missed == pytest.approx(time, rel=1e-6, abs=1e-6)
-
-
-@given(u=flows, v=flows, east=places, north=places)
-def test_uniform_flow_agrees_with_the_straight_leg(
-    u: float, v: float, east: float, north: float
-) -> None:
-    grid = grid_current(UniformCurrent(u, v), SQUARE, step=1000.0)
-    leg = leg_time(grid, 0.0, 0.0, east, north, 0.0, 1.0)
-    if math.isfinite(leg):
-        assert uniform_flow_time(u, v, east, north, 1.0) == pytest.approx(leg, rel=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("flow", "east", "north", "time"),
-    [
-        (0.5, 300.0, 0.0, 200.0),
-        (-0.5, 300.0, 0.0, 600.0),
-        (-0.6, 0.0, 80.0, 100.0),
-        (2.0, 300.0, 0.0, 100.0),
-        (2.0, -300.0, 0.0, math.inf),
-        (2.0, 0.0, 300.0, math.inf),
-        (2.0, math.sqrt(3.0), 1.01, math.inf),
-        (1.0, 300.0, 0.0, 150.0),
-        (1.0, -300.0, 0.0, math.inf),
-        (1.0, 0.0, 300.0, math.inf),
-        (3.0, 0.0, 0.0, 0.0),
-    ],
-)
-def test_closed_form(flow: float, east: float, north: float, time: float) -> None:
-    assert uniform_flow_time(flow, 0.0, east, north, 1.0) == pytest.approx(time, rel=1e-12)
 
 
 @pytest.mark.parametrize("flow", [(0.0, 0.0), (0.3, -0.2), (-0.4, 0.3), (0.1, 0.6)])

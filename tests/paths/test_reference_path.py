@@ -17,9 +17,8 @@ from fiveroute.ocean.currents import (
 )
 from fiveroute.paths.grid_search import stencil
 from fiveroute.paths.legs import Waters, track_clearance, track_time
-from fiveroute.paths.stencil import grid_path, grid_paths
-from fiveroute.paths.uniform_flow import uniform_flow_time
-from fiveroute.paths.zermelo import zermelo_path
+from fiveroute.paths.reference_path import grid_path, grid_paths
+from fiveroute.paths.zermelo import uniform_flow_time, zermelo_path
 
 SQUARE = Region(-500.0, -500.0, 5500.0, 5500.0)
 
