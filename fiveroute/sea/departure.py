@@ -19,7 +19,7 @@ cells and routes through them, and rehearse like the others.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -34,6 +34,7 @@ from fiveroute.routes import Plan
 from fiveroute.sea.courses.course import Course
 from fiveroute.sea.courses.option_search import best_options
 from fiveroute.sea.courses.recourse import reconsider, with_recourse
+from fiveroute.sea.seeds import REHEARSALS, Purpose, generator
 from fiveroute.sea.simulation import simulate_fleet
 from fiveroute.sea.world import World
 from fiveroute.tiers.actuation import expected_legs
@@ -46,7 +47,6 @@ CAUTIONS = ((1.0, 2.0), (1.0, 3.0), (1.0, 5.0), (1.05, 2.0), (1.05, 3.0), (1.05,
 _SLACKS = (1.0, 1.04, 1.08, 1.12)
 _TRIALS = 30_000  # of the fleet search, for a plan
 _OPTION_TRIALS = 8_000  # of the search for options, for a plan
-_REHEARSALS = 1 << 40  # added to the seed
 
 
 def departure_plan(
@@ -76,16 +76,12 @@ def departure_plan(
         When to stop; the best plan so far is returned.
     """
     clock = (limits or Limits()).start()
-    rng = np.random.default_rng((seed, 4))
+    rng = generator(Purpose.DEPARTURE, seed)
     plans: list[Plan] = []
-    choices = _SLACKS if planner in ("ftcmp", "rmmp") else CAUTIONS
-    for choice in choices:
-        if plans and clock.expired:
+    for plan in _plans(world, planner, seed, rng):
+        plans.append(plan)
+        if clock.expired:
             break
-        if isinstance(choice, tuple):
-            plans.append(_cautious_plan(world, *choice, rng))
-        else:
-            plans.append(_cluster_plan(world, planner, choice, np.random.default_rng(seed)))
     if planner == "five-tier":
         return _with_options(world, plans, reserve, rng, clock)
     return rehearse(world, plans, planner, reserve=reserve, runs=runs, seed=seed, clock=clock)
@@ -114,13 +110,23 @@ def rehearse(
     for plan in plans:
         if clock is not None and clock.expired:
             break
-        luck = seed + _REHEARSALS
+        luck = seed + REHEARSALS
         result = simulate_fleet(
             world, plan, planner=planner, runs=runs, reserve=reserve, seed=luck, log=False
         )
         if result.completions.mean() > most:
             best, most = plan, float(result.completions.mean())
     return best
+
+
+def _plans(world: World, planner: str, seed: int, rng: np.random.Generator) -> Iterator[Plan]:
+    """The plans that are tried for a planner, made as they are asked for."""
+    if planner in ("ftcmp", "rmmp"):  # the same clusters, whatever the slack
+        for slack in _SLACKS:
+            yield _cluster_plan(world, planner, slack, np.random.default_rng(seed))
+    else:
+        for slack, home in CAUTIONS:
+            yield _cautious_plan(world, slack, home, rng)
 
 
 def _cautious_plan(world: World, slack: float, home: float, rng: np.random.Generator) -> Plan:

@@ -26,6 +26,7 @@ from fiveroute.ocean.barriers import Barriers, distance_to_leg
 from fiveroute.paths.leg_table import LegTable
 from fiveroute.paths.voyage import Voyage
 from fiveroute.sea.luck import Leg
+from fiveroute.sea.seeds import Purpose, generator
 from fiveroute.tiers.actuation import uncertainty_of
 from fiveroute.vehicle.dynamics import Vehicle
 from fiveroute.vehicle.fit import Fit, SailedLegs, drift_of_walks, fit_uncertainty, sail_legs
@@ -117,7 +118,7 @@ class VehicleModel:
 
     def ocean(self, seed: int, run: int) -> TrueOcean:
         """The ocean of a run."""
-        rng = np.random.default_rng((seed, run, 5))
+        rng = generator(Purpose.OCEAN, seed, run)
         return self.forecast.truth(rng, self.avoidance.standoff)
 
     def track(self, i: int, j: int) -> Floats:
@@ -173,7 +174,7 @@ class VehicleModel:
         limits
             When to stop; the fit is made of the walks that were sailed, five oceans' at least.
         """
-        clock, rng = (limits or Limits()).start(), np.random.default_rng((seed, 6))
+        clock, rng = (limits or Limits()).start(), generator(Purpose.WALKS, seed)
         if self.legs is not None:
             planned = np.where(np.isfinite(self.legs.times), planned, np.inf)
         sailed: list[SailedLegs] = []

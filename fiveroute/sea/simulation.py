@@ -22,7 +22,7 @@ from fiveroute.limits import Limits, Progress, ProgressCallback
 from fiveroute.problem import TIME_TOLERANCE
 from fiveroute.routes import Plan
 from fiveroute.sea.agents.channel import PRESETS, Channel
-from fiveroute.sea.agents.watch import SILENCE
+from fiveroute.sea.agents.teammates import SILENCE
 from fiveroute.sea.bounds.clairvoyant import clairvoyant_plan
 from fiveroute.sea.courses.course import Outlook
 from fiveroute.sea.luck import Luck
@@ -38,6 +38,7 @@ from fiveroute.sea.planners.to_the_letter import ToTheLetter
 from fiveroute.sea.run import Crew, Run
 from fiveroute.sea.run_result import RunResult, SimulationResult
 from fiveroute.sea.sailed_luck import SailedLuck
+from fiveroute.sea.seeds import Purpose, generator
 from fiveroute.sea.world import World
 
 __all__ = ["PLANNERS", "simulate_fleet"]
@@ -215,7 +216,7 @@ def _crew(sea: _Sea, run: Run, plan: Plan, planner: str) -> Crew:
             plan,
             channel=sea.channel,
             points=sea.world.points,
-            rng=np.random.default_rng((sea.seed, run.luck.run, 2)),
+            rng=generator(Purpose.CHANNEL, sea.seed, run.luck.run),
             silence=SILENCE if sea.failures > 0.0 else math.inf,
         )
     if planner == "no-coordination":
@@ -227,7 +228,7 @@ def failure_times(
     budgets: NDArray[np.float64], failures: float, seed: int, run: int
 ) -> tuple[float, ...]:
     """When each AUV fails in a run, in seconds: at any time of its endurance, or never."""
-    rng = np.random.default_rng((seed, run, 1))
+    rng = generator(Purpose.FAILURES, seed, run)
     fails, when = rng.random(len(budgets)) < failures, rng.random(len(budgets)) * budgets
     return tuple(np.where(fails, when, np.inf).tolist())
 

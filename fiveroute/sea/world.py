@@ -13,13 +13,11 @@ from fiveroute.problem import TeamOrienteering, completion_rate
 from fiveroute.sea.courses.course import Outlook, Pace, outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.sailed_luck import SailedLuck, VehicleModel
+from fiveroute.sea.seeds import TRIAL_OCEANS
 from fiveroute.tiers.actuation import LegLaw, leg_law, uncertainty_of
 from fiveroute.vehicle.fit import Fit
 
 __all__ = ["World"]
-
-_TRIAL_OCEANS = 1 << 41
-"""Added to the seed of a simulation for the oceans that the law of a vehicle is fitted in."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -105,7 +103,7 @@ class World:
 
     def fitted(self, model: VehicleModel, seed: int = 0, *, limits: Limits | None = None) -> Fit:
         """What the legs of the mission make of the vehicle, in oceans of the fit's own."""
-        return model.fit(self.problem.travel, seed=seed + _TRIAL_OCEANS, limits=limits)
+        return model.fit(self.problem.travel, seed=seed + TRIAL_OCEANS, limits=limits)
 
     def expecting(self, model: VehicleModel, fit: Fit) -> World:
         """The same mission, its legs sailed by a vehicle of which a fit is known.

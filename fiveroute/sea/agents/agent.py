@@ -4,7 +4,7 @@ At a node it compares its remaining route with the time left (24), discards what
 (25), looks for a better course over what is its own (`fiveroute.sea.courses.replanning`), and
 reports. What it keeps idle it offers (`fiveroute.sea.agents.auctioneer`), what others offer it bids
 for (`fiveroute.sea.agents.bidder`), and what a silent teammate leaves behind it may take over
-(`fiveroute.sea.agents.watch`).
+(`fiveroute.sea.agents.teammates`).
 """
 
 from __future__ import annotations
@@ -30,15 +30,12 @@ from fiveroute.sea.agents.messages import (
     Wish,
 )
 from fiveroute.sea.agents.own_ship import OwnShip
-from fiveroute.sea.agents.watch import Watch
+from fiveroute.sea.agents.teammates import BEAT, Teammates
 from fiveroute.sea.courses.course import Outlook
 from fiveroute.sea.courses.recourse import reconsider
 from fiveroute.sea.run import Run
 
-__all__ = ["BEAT", "Agent"]
-
-BEAT = 900.0
-"""Longest time in seconds from one report of an AUV to the next."""
+__all__ = ["Agent"]
 
 
 class Agent:
@@ -57,7 +54,7 @@ class Agent:
     holdings
         What it sets out with.
     estates, silence, tell
-        See `Watch`.
+        See `Teammates`.
     """
 
     def __init__(
@@ -72,8 +69,8 @@ class Agent:
         tell: Callable[[int, int], None],
     ) -> None:
         self.ship = OwnShip(number, run, radio, view, holdings)
-        self.watch = Watch(self.ship, dict(estates), silence, tell, self._offer)
-        self.auctioneer = Auctioneer(self.ship, self.watch.partners)
+        self.teammates = Teammates(self.ship, dict(estates), silence, tell, self._offer)
+        self.auctioneer = Auctioneer(self.ship, self.teammates.partners)
         self.bidder = Bidder(self.ship)
         self.ship.later(BEAT, self._beat)
 
@@ -107,10 +104,10 @@ class Agent:
 
     def hear(self, t: float, message: Message) -> None:
         """React to a message."""
-        self.watch.heard(t, message.sender)
+        self.teammates.heard(t, message.sender)
         match message:
             case Report():
-                self.watch.on_report(message)
+                self.teammates.on_report(message)
                 self.bidder.on_report(message)
                 self.auctioneer.on_report(message)
             case Wish():
@@ -130,9 +127,9 @@ class Agent:
             case Void():
                 self.bidder.on_void(t, message)
             case Inquiry():
-                self.watch.on_inquiry(t, message)
+                self.teammates.on_inquiry(t, message)
             case Reply():
-                self.watch.on_reply(t, message)
+                self.teammates.on_reply(t, message)
 
     def _replan(self, t: float) -> None:
         """(24) to (27) for itself alone: the best course over the nodes that are its own."""
@@ -170,7 +167,7 @@ class Agent:
         if t - ship.reported >= BEAT:
             ship.report(t)
         self.auctioneer.remind(t)
-        self.watch.look_round(t)
+        self.teammates.look_round(t)
         if ship.vessel.is_home:
             self._offer(t)
         ship.later(t + BEAT, self._beat)

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
-from fiveroute.sea.agents.messages import Message
+from fiveroute.sea.agents.messages import HEADER_BITS, WORD_BITS, Message
 from fiveroute.sea.events import Frame
 from fiveroute.sea.run import Run, Vessel
 
@@ -140,7 +140,7 @@ class Radio:
     def __post_init__(self) -> None:
         n, fleet = self.run.problem.n, self.run.problem.fleet_size
         across = float(np.hypot(*np.ptp(self.points, axis=0)))
-        longest = 36 + 16 * (n + 1)
+        longest = HEADER_BITS + WORD_BITS * (n + 1)  # a call or bid for all nodes
         self.slot = longest / self.channel.bit_rate + min(across, self.channel.reach) / SOUND_SPEED
         self._next_turn = [auv * self.slot for auv in range(fleet)]
         self._waiting = [deque() for _ in range(fleet)]

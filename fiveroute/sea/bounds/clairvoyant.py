@@ -9,14 +9,13 @@ is within some tenths of a per cent.
 
 from __future__ import annotations
 
-import numpy as np
-
 from fiveroute.heuristics.fleet_search import fleet_search
 from fiveroute.heuristics.pick_up import trim
 from fiveroute.heuristics.shortest_routes import shortest_routes
 from fiveroute.problem import TeamOrienteering
 from fiveroute.routes import Plan
 from fiveroute.sea.luck import Luck
+from fiveroute.sea.seeds import Purpose, generator
 
 __all__ = ["clairvoyant_plan"]
 
@@ -56,7 +55,7 @@ def clairvoyant_plan(
         duration <= allowed
         for duration, allowed in zip(start.durations(real), real.allowed, strict=True)
     )
-    rng = np.random.default_rng((luck.seed, luck.run, 3))
+    rng = generator(Purpose.CLAIRVOYANT, luck.seed, luck.run)
     if not is_legal and shortest_routes(real) is None:
         return real, start  # not even the way home is in time
     warm = start if is_legal else None

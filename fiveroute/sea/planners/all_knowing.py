@@ -10,7 +10,7 @@ from collections.abc import Collection
 from typing import ClassVar
 
 from fiveroute.routes import Plan, Route
-from fiveroute.sea.agents.watch import SILENCE
+from fiveroute.sea.agents.teammates import SILENCE
 from fiveroute.sea.courses.course import Course, Outlook
 from fiveroute.sea.courses.discarding import discard
 from fiveroute.sea.courses.recourse import reconsider, with_recourse

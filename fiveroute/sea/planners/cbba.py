@@ -33,16 +33,14 @@ from fiveroute.sea.agents.bundle import Bundle
 from fiveroute.sea.agents.channel import Channel, Radio
 from fiveroute.sea.agents.consensus import COLLECTED, HELD, NOBODY, Beliefs, View
 from fiveroute.sea.agents.messages import Message
-from fiveroute.sea.agents.watch import SILENCE
+from fiveroute.sea.agents.teammates import BEAT, SILENCE
 from fiveroute.sea.courses.course import Course, Outlook
 from fiveroute.sea.courses.picking import offers
 from fiveroute.sea.courses.replanning import TRIALS, replan
 from fiveroute.sea.run import Run, course_of
+from fiveroute.sea.seeds import decision_seed
 
-__all__ = ["BEAT", "Cbba"]
-
-BEAT = 900.0
-"""Longest time in seconds from one message of an AUV to the next."""
+__all__ = ["Cbba"]
 
 
 class Cbba:
@@ -197,7 +195,7 @@ class _Agent:
         """The best course over its own and idle nodes that begins with a node of its own."""
         beliefs, course = self.beliefs, self._course()
         idle = [n for n in range(1, len(beliefs.winners) - 1) if beliefs.winners[n] == NOBODY]
-        seed = (self._run.luck.run * 997 + self.number) * 997 + len(self._run.log)
+        seed = decision_seed(self._run.luck.run, self.number, len(self._run.log))
         better, _ = replan(self._view, course, idle, TRIALS, seed)
         fresh = {*idle, *self._unsettled()}
         if better.route and better.route[0] in fresh:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from fiveroute.sea.courses.fleet_replanning import replan_fleet
 from fiveroute.sea.planners.all_knowing import AllKnowing
+from fiveroute.sea.seeds import decision_seed
 
 __all__ = ["ReOptimising"]
 
@@ -23,7 +24,7 @@ class ReOptimising(AllKnowing):
         self.idle.update(self.abandoned(t))
         here, active = self.at_node(auv, t), self.active
         courses = [here if m == auv else self.course(m, t) for m in active]
-        seed = self.run.luck.run * 997 + len(self.run.log)
+        seed = decision_seed(self.run.luck.run, len(self.run.log))
         routes = replan_fleet(self.view, courses, self.idle, seed)
         had = self.idle.union(*(course.route for course in courses))
         before, after = had - self.idle, set[int]().union(*routes)

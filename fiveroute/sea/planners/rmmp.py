@@ -22,6 +22,7 @@ import numpy as np
 
 from fiveroute.sea.courses.replanning import TRIALS, replan
 from fiveroute.sea.planners.all_knowing import AllKnowing
+from fiveroute.sea.seeds import decision_seed
 
 __all__ = ["Rmmp"]
 
@@ -35,7 +36,7 @@ class Rmmp(AllKnowing):
         course = self.at_node(auv, t)
         cell = self._cell(auv, t)
         own = tuple(node for node in course.route if node in cell)
-        seed = self.run.luck.run * 997 + auv
+        seed = decision_seed(self.run.luck.run, auv)
         better, _ = replan(self.view, replace(course, route=own), cell, TRIALS, seed)
         self.idle.update(cell, course.route)
         self.idle.difference_update(better.route)

@@ -23,7 +23,7 @@ from fiveroute.sea.agents.messages import (
     Report,
     Void,
 )
-from fiveroute.sea.agents.watch import SILENCE
+from fiveroute.sea.agents.teammates import SILENCE
 from fiveroute.sea.courses.course import outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.five_tier import FiveTier
@@ -50,7 +50,7 @@ class Fleet:
         for agent in self.agents:
             agent.holdings.kept.clear()
             own = {0: {1, 5}, 1: {2}, 2: {3}}
-            agent.watch.estates.update({m: frozenset(nodes) for m, nodes in own.items()})
+            agent.teammates.estates.update({m: frozenset(nodes) for m, nodes in own.items()})
         self.agents[0].holdings.kept.add(5)
 
     @property
@@ -164,10 +164,10 @@ def hear_all(fleet: Fleet, t: float, auv: int, *others: int) -> None:
 def test_the_heir_asks_before_it_takes_over(fleet: Fleet) -> None:
     """AUV 1 is silent; AUV 2 comes next, hears that node 5 is AUV 0's, and keeps the rest."""
     heir, late = fleet.agents[2], SILENCE + 100.0
-    heir.watch.estates[1] = frozenset({2, 5})
+    heir.teammates.estates[1] = frozenset({2, 5})
     hear_all(fleet, late, 2, 0)
-    assert heir.watch.suspects(1, late)
-    heir.watch.look_round(late)
+    assert heir.teammates.suspects(1, late)
+    heir.teammates.look_round(late)
     (inquiry,) = fleet.said(2, Inquiry)
     assert 2 not in heir.holdings.kept
     fleet.agents[0].hear(late + 1.0, inquiry)
@@ -180,7 +180,7 @@ def test_the_heir_asks_before_it_takes_over(fleet: Fleet) -> None:
 def test_only_the_next_in_order_is_the_heir(fleet: Fleet) -> None:
     late = SILENCE + 100.0
     hear_all(fleet, late, 0, 2)
-    fleet.agents[0].watch.look_round(late)
+    fleet.agents[0].teammates.look_round(late)
     assert fleet.said(0, Inquiry) == []
 
 
@@ -194,12 +194,12 @@ def test_only_the_next_in_order_is_the_heir(fleet: Fleet) -> None:
 def test_the_heir_yields_to_who_is_heard_again(fleet: Fleet, sign: Callable[[], Message]) -> None:
     heir, late = fleet.agents[2], SILENCE + 100.0
     hear_all(fleet, late, 2, 0)
-    heir.watch.look_round(late)
+    heir.teammates.look_round(late)
     heir.hear(late + 1.0, Reply(0, 2, 1, NONE))
     assert heir.holdings.kept == {2}
     assert fleet.crew.false_takeovers == 1
     heir.hear(late + 2.0, sign())
-    assert not heir.watch.suspects(1, late + 2.0)
+    assert not heir.teammates.suspects(1, late + 2.0)
     assert heir.holdings.kept == set()
 
 

@@ -9,7 +9,7 @@ from fiveroute.generate import generate
 from fiveroute.routes import Plan
 from fiveroute.sea.agents.channel import Channel
 from fiveroute.sea.agents.consensus import COLLECTED
-from fiveroute.sea.agents.watch import SILENCE
+from fiveroute.sea.agents.teammates import SILENCE
 from fiveroute.sea.courses.course import outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.cbba import Cbba

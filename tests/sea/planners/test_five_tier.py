@@ -9,9 +9,8 @@ import pytest
 
 from fiveroute.generate import generate
 from fiveroute.routes import Plan
-from fiveroute.sea.agents.agent import BEAT
 from fiveroute.sea.agents.channel import Bursts, Channel
-from fiveroute.sea.agents.watch import SILENCE
+from fiveroute.sea.agents.teammates import BEAT, SILENCE
 from fiveroute.sea.courses.course import in_hand, outlook
 from fiveroute.sea.events import Frame, Kind
 from fiveroute.sea.luck import Luck

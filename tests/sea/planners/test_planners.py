@@ -8,7 +8,7 @@ import pytest
 
 from fiveroute.generate import generate
 from fiveroute.routes import Plan
-from fiveroute.sea.agents.watch import SILENCE
+from fiveroute.sea.agents.teammates import SILENCE
 from fiveroute.sea.courses.course import outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.all_knowing import AllKnowing

@@ -20,14 +20,17 @@ from dataclasses import dataclass, field
 from fiveroute.sea.agents.messages import Inquiry, Reply, Report
 from fiveroute.sea.agents.own_ship import OwnShip
 
-__all__ = ["SILENCE", "Watch"]
+__all__ = ["BEAT", "SILENCE", "Teammates"]
 
-SILENCE = 3600.0
-"""Seconds without a sign of life after which a teammate is suspected: four reports missed."""
+BEAT = 900.0
+"""Longest time in seconds from one sign of life of an AUV to the next."""
+
+SILENCE = 4.0 * BEAT
+"""Seconds without a sign of life after which a teammate is suspected: four are missed."""
 
 
 @dataclass(slots=True)
-class Watch:
+class Teammates:
     """Beliefs of one AUV about the others.
 
     Parameters
