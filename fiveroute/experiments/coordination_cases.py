@@ -17,8 +17,9 @@ from fiveroute.generate import paper_scenario
 from fiveroute.instance import Instance
 from fiveroute.routes import Plan, Route
 from fiveroute.sea.agents.auction import assign_by_auction
-from fiveroute.sea.courses.course import Course, Outlook
+from fiveroute.sea.courses.course import Course
 from fiveroute.sea.courses.discarding import discard
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.picking import offers
 from fiveroute.sea.departure import departure_plan
 from fiveroute.sea.planners.to_the_letter import ToTheLetter

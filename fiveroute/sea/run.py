@@ -16,7 +16,8 @@ from functools import partial
 from typing import Protocol
 
 from fiveroute.problem import TeamOrienteering
-from fiveroute.sea.courses.course import Course, Outlook
+from fiveroute.sea.courses.course import Course
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.events import Event, Frame, Kind
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.sailed_luck import SailedLuck

@@ -24,7 +24,7 @@ from fiveroute.routes import Plan
 from fiveroute.sea.agents.channel import PRESETS, Channel
 from fiveroute.sea.agents.teammates import SILENCE
 from fiveroute.sea.bounds.clairvoyant import clairvoyant_plan
-from fiveroute.sea.courses.course import Outlook
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.alone import Alone, sail_alone
 from fiveroute.sea.planners.cbba import Cbba

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from fiveroute.instance import Instance, Uncertainty
 from fiveroute.limits import Limits
 from fiveroute.problem import TeamOrienteering, completion_rate
-from fiveroute.sea.courses.course import Outlook, Pace, outlook
+from fiveroute.sea.courses.outlook import Outlook, Pace
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.sailed_luck import SailedLuck, VehicleModel
 from fiveroute.sea.seeds import TRIAL_OCEANS
@@ -126,7 +126,7 @@ class World:
 
     def outlook(self, reserve: float) -> Outlook:
         """What the AUVs expect, and keep in hand for a reserve of so many standard deviations."""
-        return outlook(self.problem, self.law, reserve, self.pace)
+        return Outlook.of(self.problem, self.law, reserve, self.pace)
 
     def luck(self, seed: int, run: int) -> Luck | SailedLuck:
         """What every leg takes in one run."""

@@ -23,8 +23,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from fiveroute.sea.agents.auction import assign_by_auction
-from fiveroute.sea.courses.course import Course, Outlook
+from fiveroute.sea.courses.course import Course
 from fiveroute.sea.courses.discarding import discard
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.picking import offers
 
 __all__ = ["Award", "assign_idle_nodes", "coordinate"]

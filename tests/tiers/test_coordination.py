@@ -7,8 +7,9 @@ from hypothesis import strategies as st
 
 from fiveroute.instance import Uncertainty
 from fiveroute.problem import TeamOrienteering
-from fiveroute.sea.courses.course import LONGEST_LEG, Course, Outlook, in_hand, outlook
+from fiveroute.sea.courses.course import Course, in_hand
 from fiveroute.sea.courses.discarding import discard
+from fiveroute.sea.courses.outlook import LONGEST_LEG, Outlook
 from fiveroute.sea.courses.picking import offers
 from fiveroute.tiers.actuation import leg_law
 from fiveroute.tiers.coordination import Award, assign_idle_nodes, coordinate
@@ -24,7 +25,7 @@ def line(
     at = np.array([0.0, *places, 0.0])
     travel = np.abs(at[:, None] - at)
     problem = TeamOrienteering(travel, np.zeros_like(at), [0.0, *data, 0.0], [1.0])
-    return outlook(problem, leg_law(travel, travel / 1000.0, uncertainty), reserve)
+    return Outlook.of(problem, leg_law(travel, travel / 1000.0, uncertainty), reserve)
 
 
 def course(budget: float, *route: int, anchor: int = 0, time: float = 0.0) -> Course:
@@ -107,7 +108,7 @@ def test_whatever_happens_there_is_time(seed: int, reserve: float) -> None:
     data = np.array([0.0, *rng.random(n), 0.0])
     service = np.array([0.0, *rng.random(n) * 30.0, 0.0])
     problem = TeamOrienteering(travel, service, data, [1.0])
-    view = outlook(problem, leg_law(problem.travel, problem.travel / 1000.0, ROUGH), reserve)
+    view = Outlook.of(problem, leg_law(problem.travel, problem.travel / 1000.0, ROUGH), reserve)
     order = (rng.permutation(n) + 1).tolist()
     cut = int(rng.integers(0, n + 1))
     shares: tuple[tuple[int, ...], ...] = (tuple(order[:cut]), ())

@@ -31,7 +31,7 @@ from fiveroute.sea.agents.messages import (
 )
 from fiveroute.sea.agents.own_ship import OwnShip
 from fiveroute.sea.agents.teammates import BEAT, Teammates
-from fiveroute.sea.courses.course import Outlook
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.recourse import reconsider
 from fiveroute.sea.run import Run
 

@@ -14,7 +14,8 @@ import numpy as np
 from fiveroute.sea.agents.channel import Radio
 from fiveroute.sea.agents.holdings import Holdings
 from fiveroute.sea.agents.messages import Message, Report
-from fiveroute.sea.courses.course import Course, Outlook
+from fiveroute.sea.courses.course import Course
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.picking import Offers, offers
 from fiveroute.sea.events import Kind
 from fiveroute.sea.run import Run, Vessel, course_of

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
 from fiveroute.kernels import kernel
-from fiveroute.sea.courses.course import Outlook
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.recourse import gain_of, gains, toll_home
 from fiveroute.sea.run import Run
 

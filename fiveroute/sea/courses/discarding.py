@@ -17,7 +17,9 @@ from dataclasses import replace
 
 from fiveroute.kernels import kernel
 from fiveroute.routes import Route
-from fiveroute.sea.courses.course import Course, Outlook, Stops, time_in_hand
+from fiveroute.sea.courses.course import Course, time_in_hand
+from fiveroute.sea.courses.outlook import Outlook
+from fiveroute.sea.courses.stops import Stops, remove_stops
 
 __all__ = ["discard", "shed"]
 
@@ -32,8 +34,8 @@ def discard(view: Outlook, course: Course) -> tuple[Course, Route]:
     discarded
         The nodes left out, in ascending order.
     """
-    stops = course.stops(len(view.profit) - 1)
-    length = shed(view, stops, len(stops) - 1, course.budget - course.time, course.spread)
+    stops = course.stops(view.destination)
+    length = shed(view, stops, len(stops) - 1, course.left, course.spread)
     if length == len(stops) - 1:
         return course, ()
     kept = tuple(stops[1 : length - 1].tolist())
@@ -48,9 +50,7 @@ def shed(view: Outlook, stops: Stops, length: int, left: float, spread: float) -
         worst, hand = _worst(view, stops, length, left, spread, hand)
         if worst == 0:
             break
-        for at in range(worst, length - 1):
-            stops[at] = stops[at + 1]
-        length -= 1
+        length = remove_stops(stops, length, worst, 1)
     return length
 
 

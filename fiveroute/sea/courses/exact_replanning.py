@@ -20,7 +20,9 @@ from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
 from fiveroute.routes import Route
-from fiveroute.sea.courses.course import Course, Outlook, Stops, time_in_hand
+from fiveroute.sea.courses.course import Course, time_in_hand
+from fiveroute.sea.courses.outlook import Outlook
+from fiveroute.sea.courses.stops import Ints
 
 __all__ = ["EXACT", "best_courses"]
 
@@ -28,9 +30,7 @@ EXACT = 8
 """Most nodes for which all orders are sailed: 110,000 for an AUV that has time for all."""
 
 
-def best_courses(
-    view: Outlook, courses: Sequence[Course], nodes: NDArray[np.int64]
-) -> tuple[Route, ...]:
+def best_courses(view: Outlook, courses: Sequence[Course], nodes: Ints) -> tuple[Route, ...]:
     """The routes that collect most of some nodes, and of these the ones that leave most time.
 
     Parameters
@@ -46,8 +46,7 @@ def best_courses(
     hands = np.full((fleet, sets), -np.inf)
     orders = np.zeros((fleet, sets, len(nodes)), np.int64)
     for m, course in enumerate(courses):
-        left = course.budget - course.time
-        _sail_all(view, course.anchor, left, course.spread, nodes, hands[m], orders[m])
+        _sail_all(view, course.anchor, course.left, course.spread, nodes, hands[m], orders[m])
     shares = _share_out(hands, view.profit[nodes])
     return tuple(
         tuple(orders[m, share, : int(share).bit_count()].tolist())
@@ -61,9 +60,9 @@ def _sail_all(
     anchor: int,
     left: float,
     spread: float,
-    nodes: Stops,
+    nodes: Ints,
     hands: NDArray[np.float64],
-    orders: Stops,
+    orders: Ints,
 ) -> None:
     """Fill in for every set of nodes its greatest time in hand, and the order that has it."""
     count, home = len(nodes), len(view.profit) - 1
@@ -94,7 +93,7 @@ def _sail_all(
 
 
 @kernel
-def _share_out(hands: NDArray[np.float64], profit: NDArray[np.float64]) -> Stops:
+def _share_out(hands: NDArray[np.float64], profit: NDArray[np.float64]) -> Ints:
     """The set of nodes of every AUV."""
     fleet, sets = hands.shape
     best, taken = np.full((fleet + 1, sets), -np.inf), np.zeros((fleet, sets), np.int64)

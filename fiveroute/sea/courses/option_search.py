@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,8 +20,9 @@ from fiveroute.kernels import kernel
 from fiveroute.limits import Clock
 from fiveroute.randomness import RandomState, below, random_state, uniform
 from fiveroute.routes import Route
-from fiveroute.sea.courses.course import Outlook, Stops
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.recourse import look_ahead, next_stop
+from fiveroute.sea.courses.stops import Ints
 
 __all__ = ["best_options"]
 
@@ -28,6 +30,28 @@ _NEAR = 10  # near vertices among which a string may find a new place
 _LONGEST = 4  # nodes of a string, but for one in ten, which goes on to the end
 _WARM, _COLD = 0.1, 0.005  # temperatures, as shares of the mean data of a node
 _SLICE = 500  # trials between two looks at the clock
+
+
+class _Courses(NamedTuple):
+    """Courses as kernels have them, a row each.
+
+    Parameters
+    ----------
+    rows
+        The start, nodes, and room for all others and the destination, shape (k, n + 3).
+    lengths
+        Number of nodes on each, shape (k,).
+    worths
+        V_0 of each, shape (k,).
+    """
+
+    rows: Ints
+    lengths: Ints
+    worths: NDArray[np.float64]
+
+    def copy(self) -> _Courses:
+        """The same in arrays of their own."""
+        return _Courses(self.rows.copy(), self.lengths.copy(), self.worths.copy())
 
 
 def best_options(
@@ -57,44 +81,41 @@ def best_options(
     """
     home = len(view.profit) - 1
     idle = sorted(set(range(1, home)).difference(*routes))
-    rows = np.zeros((len(routes) + 1, home + 2), np.int64)
-    for row, route in zip(rows, (*routes, idle), strict=True):
+    now = _Courses(
+        np.zeros((len(routes) + 1, home + 2), np.int64),
+        np.array([len(route) for route in (*routes, idle)]),
+        np.zeros(len(routes) + 1),
+    )
+    for row, route in zip(now.rows, (*routes, idle), strict=True):
         row[1 : 1 + len(route)] = route
-    lengths = np.array([len(route) for route in (*routes, idle)])
     distances = view.legs + np.diag(np.full(home + 1, np.inf))
     near = np.ascontiguousarray(np.argsort(distances, axis=1)[:, :_NEAR])
-    worths = _worths(view, rows, lengths, budgets.copy())
-    best, best_lengths, best_worths = rows.copy(), lengths.copy(), worths.copy()
+    _reckon(view, now, budgets.copy())
+    best = now.copy()
     state, scale = random_state(rng), float(view.profit[1:home].mean()) if home > 1 else 0.0
     for begin in range(0, trials if home > 1 else 0, _SLICE):
         warmth = scale * _WARM * (_COLD / _WARM) ** (begin / trials)
-        _anneal(
-            view, rows, lengths, worths, best, best_lengths, best_worths, budgets.copy(), near,
-            warmth, _SLICE, state,
-        )  # fmt: skip
+        _anneal(view, now, best, budgets.copy(), near, warmth, _SLICE, state)
         if clock is not None and clock.expired:
             break
-    found = zip(best[:-1], best_lengths[:-1].tolist(), strict=True)
+    found = zip(best.rows[:-1], best.lengths[:-1].tolist(), strict=True)
     courses = tuple(tuple(row[1 : 1 + length].tolist()) for row, length in found)
-    return courses, float(best_worths.sum())
+    return courses, float(best.worths.sum())
 
 
 @kernel
-def _worths(
-    view: Outlook, rows: Stops, lengths: Stops, budgets: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """What every row is worth; the last one, of those that nobody has, is worth nothing."""
-    worths = np.zeros(len(rows))
-    values = np.empty((rows.shape[1], view.late.shape[1]))
+def _reckon(view: Outlook, courses: _Courses, budgets: NDArray[np.float64]) -> None:
+    """Fill in what courses are worth; the last row, of nodes that nobody has, is worth nothing."""
+    values = np.empty((courses.rows.shape[1], view.late.shape[1]))
     for m in range(len(budgets)):
-        worths[m] = _worth(view, rows[m], lengths[m], budgets[m], values)
-    return worths
+        row, length = courses.rows[m], courses.lengths[m]
+        courses.worths[m] = _worth(view, row, length, budgets[m], values)
 
 
 @kernel
 def _worth(
     view: Outlook,
-    row: Stops,
+    row: Ints,
     length: int,
     budget: float,
     values: NDArray[np.float64],
@@ -109,54 +130,42 @@ def _worth(
 @kernel
 def _anneal(
     view: Outlook,
-    rows: Stops,
-    lengths: Stops,
-    worths: NDArray[np.float64],
-    best: Stops,
-    best_lengths: Stops,
-    best_worths: NDArray[np.float64],
+    now: _Courses,
+    best: _Courses,
     budgets: NDArray[np.float64],
-    near: Stops,
+    near: Ints,
     warmth: float,
     trials: int,
     state: RandomState,
 ) -> None:
-    """Change rows, their lengths and worths, and the best of them, in place."""
-    values = np.empty((rows.shape[1], view.late.shape[1]))
-    new, new_lengths, then = (
-        np.zeros((2, rows.shape[1]), np.int64),
-        np.zeros(2, np.int64),
-        np.zeros(2),
-    )
+    """Change courses, and the best of them, in place."""
+    size = now.rows.shape[1]
+    values = np.empty((size, view.late.shape[1]))
+    new = _Courses(np.zeros((2, size), np.int64), np.zeros(2, np.int64), np.zeros(2))
     pair = np.zeros(2, np.int64)
     for _ in range(trials):
-        changed = _propose(rows, lengths, near, pair, new, new_lengths, state)
+        changed = _propose(now, near, pair, new, state)
         change = 0.0
         for k in range(changed):
             m = pair[k]
-            is_idle = m == len(budgets)
-            then[k] = 0.0 if is_idle else _worth(view, new[k], new_lengths[k], budgets[m], values)
-            change += then[k] - worths[m]
+            new.worths[k] = 0.0
+            if m < len(budgets):
+                new.worths[k] = _worth(view, new.rows[k], new.lengths[k], budgets[m], values)
+            change += new.worths[k] - now.worths[m]
         if changed == 0 or change < warmth * math.log(1.0 - uniform(state)):
             continue
         for k in range(changed):
             m = pair[k]
-            rows[m, :], lengths[m], worths[m] = new[k], new_lengths[k], then[k]
-        if worths.sum() > best_worths.sum() + 1e-9:
-            best[:], best_lengths[:], best_worths[:] = rows, lengths, worths
+            now.rows[m, :], now.lengths[m] = new.rows[k], new.lengths[k]
+            now.worths[m] = new.worths[k]
+        if now.worths.sum() > best.worths.sum() + 1e-9:
+            best.rows[:], best.lengths[:], best.worths[:] = now.rows, now.lengths, now.worths
 
 
 @kernel
-def _propose(
-    rows: Stops,
-    lengths: Stops,
-    near: Stops,
-    pair: Stops,
-    new: Stops,
-    new_lengths: Stops,
-    state: RandomState,
-) -> int:
+def _propose(now: _Courses, near: Ints, pair: Ints, new: _Courses, state: RandomState) -> int:
     """Fill in up to two rows as they would become, and which; returns how many."""
+    rows, lengths = now.rows, now.lengths
     idle = len(rows) - 1  # the row of nodes that nobody has
     a, p = _locate(rows, lengths, 1 + below(state, lengths.sum()))
     wanted = near[rows[a, p], below(state, near.shape[1])]
@@ -171,7 +180,7 @@ def _propose(
     pair[0], pair[1] = a, b
     kind = uniform(state)
     if a == b:
-        return _move_within(rows[a], lengths[a], p, count, q, kind, new, new_lengths, state)
+        return _move_within(rows[a], lengths[a], p, count, q, kind, new, state)
     other = 0
     if kind < 0.35 and q > 0 and b != idle:
         other = _string(lengths[b] + 1 - q, state)
@@ -179,15 +188,15 @@ def _propose(
     elif q > 0 and uniform(state) < 0.5:
         q -= 1
     turn = uniform(state) < 0.25
-    _splice(rows[a], lengths[a], p - 1, count, rows[b], q + 1, other, False, new[0])
-    _splice(rows[b], lengths[b], q, other, rows[a], p, count, turn, new[1])
-    new_lengths[0] = lengths[a] - count + other
-    new_lengths[1] = lengths[b] - other + count
+    _splice(rows[a], lengths[a], p - 1, count, rows[b], q + 1, other, False, new.rows[0])
+    _splice(rows[b], lengths[b], q, other, rows[a], p, count, turn, new.rows[1])
+    new.lengths[0] = lengths[a] - count + other
+    new.lengths[1] = lengths[b] - other + count
     return 2
 
 
 @kernel
-def _locate(rows: Stops, lengths: Stops, number: int) -> tuple[int, int]:
+def _locate(rows: Ints, lengths: Ints, number: int) -> tuple[int, int]:
     """Row and position of the node of this number, counted row by row from 1."""
     row = 0
     while number > lengths[row]:
@@ -197,7 +206,7 @@ def _locate(rows: Stops, lengths: Stops, number: int) -> tuple[int, int]:
 
 
 @kernel
-def _find(rows: Stops, lengths: Stops, node: int) -> tuple[int, int]:
+def _find(rows: Ints, lengths: Ints, node: int) -> tuple[int, int]:
     """Row and position of a node; -1 where it is none."""
     for row in range(len(rows)):
         for at in range(1, lengths[row] + 1):
@@ -214,46 +223,46 @@ def _string(most: int, state: RandomState) -> int:
 
 @kernel
 def _move_within(
-    row: Stops,
+    row: Ints,
     length: int,
     p: int,
     count: int,
     q: int,
     kind: float,
-    new: Stops,
-    new_lengths: Stops,
+    new: _Courses,
     state: RandomState,
 ) -> int:
     """A string moves within its row, or the way between two nodes is turned round."""
-    new_lengths[0] = length
+    new.lengths[0] = length
     if kind < 0.35:
         low, high = min(p, q + 1), max(p, q)
-        new[0, :] = row
+        new.rows[0, :] = row
         for at in range(low, high + 1):
-            new[0, at] = row[low + high - at]
+            new.rows[0, at] = row[low + high - at]
         return 1 if high > low else 0
     if uniform(state) < 0.5 and q > 0:
         q -= 1
     if p - 1 <= q < p + count:
         return 0
-    _splice(row, length, p - 1, count, row, 1, 0, False, new[1])  # without the string
+    _splice(row, length, p - 1, count, row, 1, 0, False, new.rows[1])  # without the string
     if q >= p + count:
         q -= count
-    _splice(new[1], length - count, q, 0, row, p, count, uniform(state) < 0.25, new[0])
+    turn = uniform(state) < 0.25
+    _splice(new.rows[1], length - count, q, 0, row, p, count, turn, new.rows[0])
     return 1
 
 
 @kernel
 def _splice(
-    row: Stops,
+    row: Ints,
     length: int,
     keep: int,
     drop: int,
-    donor: Stops,
+    donor: Ints,
     at: int,
     count: int,
     turn: bool,
-    new: Stops,
+    new: Ints,
 ) -> None:
     """Fill in a row that has, after `keep` nodes, not its next `drop` but others of a donor."""
     for k in range(keep + 1):

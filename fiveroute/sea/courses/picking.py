@@ -15,7 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
-from fiveroute.sea.courses.course import Course, Outlook, Stops, time_in_hand
+from fiveroute.sea.courses.course import Course, time_in_hand
+from fiveroute.sea.courses.outlook import Outlook
+from fiveroute.sea.courses.stops import Ints, Stops, remove_stops
 
 __all__ = ["Offers", "offers"]
 
@@ -36,9 +38,8 @@ def offers(view: Outlook, course: Course, idle: NDArray[np.int64]) -> Offers:
         Idle nodes, shape (J,).
     """
     psi, place = np.zeros(len(idle)), np.zeros(len(idle), np.int64)
-    stops = course.stops(len(view.profit) - 1)
-    left = course.budget - course.time
-    _offer(view, stops, len(stops) - 1, left, course.spread, idle, psi, place)
+    stops = course.stops(view.destination)
+    _offer(view, stops, len(stops) - 1, course.left, course.spread, idle, psi, place)
     return psi, place
 
 
@@ -49,9 +50,9 @@ def _offer(
     length: int,
     left: float,
     spread: float,
-    idle: Stops,
+    idle: Ints,
     psi: NDArray[np.float64],
-    place: Stops,
+    place: Ints,
 ) -> None:
     """Fill psi and place for a route with room for one stop more; stops end up as they were."""
     hand = time_in_hand(view, stops, length, left, spread)
@@ -67,5 +68,4 @@ def _offer(
             ratio = view.profit[node] / max(hand - then, 1.0)
             if then >= 0.0 and ratio > psi[k]:
                 psi[k], place[k] = ratio, at - 1
-        for at in range(1, length):
-            stops[at] = stops[at + 1]
+        remove_stops(stops, length + 1, 1, 1)

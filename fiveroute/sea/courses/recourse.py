@@ -33,9 +33,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
-from fiveroute.sea.courses.course import Course, Outlook, Stops, in_hand
+from fiveroute.sea.courses.course import Course, in_hand
 from fiveroute.sea.courses.discarding import discard
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.replanning import TRIALS, cheapest_place, replan
+from fiveroute.sea.courses.stops import Ints, Stops, insert_stop, remove_stops
 
 __all__ = [
     "SKIPS",
@@ -85,10 +87,9 @@ def reconsider(
     pool = {*course.route, *idle}
     stops = np.zeros(len(pool) + 2, np.int64)
     length = len(course.route) + 2
-    stops[:length] = course.anchor, *course.route, len(view.profit) - 1
+    stops[:length] = course.anchor, *course.route, view.destination
     options = np.array(sorted(set(idle) - set(course.route)), dtype=np.int64)
-    left = course.budget - course.time
-    route = _reconsider(view, stops, length, left, options)
+    route = _reconsider(view, stops, length, course.left, options)
     fitting = _shorten(view, replace(course, route=tuple(route.tolist())))
     if in_hand(view, fitting) < 0.0:
         fitting = discard(view, course)[0]
@@ -106,23 +107,20 @@ def _shorten(view: Outlook, course: Course) -> Course:
 
 
 @kernel
-def _reconsider(view: Outlook, stops: Stops, length: int, left: float, options: Stops) -> Stops:
+def _reconsider(view: Outlook, stops: Stops, length: int, left: float, options: Ints) -> Ints:
     """The expected route over a course and options that it takes in, in stops with room."""
     values = np.empty((len(stops), view.late.shape[1]))
     look_ahead(view, stops, length, values)
     worth = next_stop(view, stops, length, 0, left, values)[1]
     for node in options:
         _, place = cheapest_place(view, stops, length, node)
-        for at in range(length, place, -1):
-            stops[at] = stops[at - 1]
-        stops[place] = node
+        insert_stop(stops, length, place, node)
         look_ahead(view, stops, length + 1, values)
         then = next_stop(view, stops, length + 1, 0, left, values)[1]
         if then > worth + 1e-9:
             length, worth = length + 1, then
         else:
-            for at in range(place, length):
-                stops[at] = stops[at + 1]
+            remove_stops(stops, length + 1, place, 1)
     return expected_route(view, stops, length, left, values)
 
 
@@ -222,7 +220,7 @@ def expected_route(
     length: int,
     left: float,
     values: NDArray[np.float64],
-) -> Stops:
+) -> Ints:
     """The nodes that the AUV will visit if every leg takes what is expected of it."""
     look_ahead(view, stops, length, values)
     route, count, at = np.empty(length, np.int64), 0, 0

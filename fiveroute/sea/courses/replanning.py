@@ -20,10 +20,12 @@ from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
 from fiveroute.randomness import RandomState, below, uniform
-from fiveroute.sea.courses.course import Course, Outlook, Stops, time_in_hand
+from fiveroute.sea.courses.course import Course, time_in_hand
 from fiveroute.sea.courses.discarding import discard
+from fiveroute.sea.courses.outlook import Outlook
+from fiveroute.sea.courses.stops import Ints, Stops, insert_stop, remove_stops
 
-__all__ = ["TRIALS", "cheapest_place", "replan"]
+__all__ = ["TRIALS", "cheapest_place", "detour", "replan"]
 
 TRIALS = 100
 """Attempts to improve a course at a node; more do not help."""
@@ -63,10 +65,9 @@ def replan(
         return fitting, dropped
     stops = np.zeros(len(pool) + 3, np.int64)
     length = len(fitting.route) + 2
-    stops[:length] = course.anchor, *fitting.route, len(view.profit) - 1
+    stops[:length] = course.anchor, *fitting.route, view.destination
     state = np.array([seed], dtype=np.uint64)
-    left = course.budget - course.time
-    length = _improve(view, stops, length, left, course.spread, pool, trials, state)
+    length = _improve(view, stops, length, course.left, course.spread, pool, trials, state)
     route = tuple(stops[1 : length - 1].tolist())
     return replace(course, route=route), tuple(sorted(set(pool.tolist()) - set(route)))
 
@@ -78,7 +79,7 @@ def _improve(
     length: int,
     left: float,
     spread: float,
-    pool: Stops,
+    pool: Ints,
     trials: int,
     state: RandomState,
 ) -> int:
@@ -118,9 +119,7 @@ def _take_out(stops: Stops, length: int, state: RandomState) -> int:
     """Take a random string of nodes out; returns the new length."""
     count = 1 + below(state, min(_LONGEST, length - 2))
     first = 1 + below(state, length - 1 - count)
-    for at in range(first, length - count):
-        stops[at] = stops[at + count]
-    return length - count
+    return remove_stops(stops, length, first, count)
 
 
 @kernel
@@ -130,7 +129,7 @@ def _fill_up(
     length: int,
     left: float,
     spread: float,
-    pool: Stops,
+    pool: Ints,
     is_on: NDArray[np.bool_],
     blur: float,
     state: RandomState,
@@ -153,14 +152,11 @@ def _fill_up(
         if chosen < 0:
             return length
         faint[chosen] = 0.0
-        for at in range(length, place, -1):
-            stops[at] = stops[at - 1]
-        stops[place] = pool[chosen]
+        insert_stop(stops, length, place, pool[chosen])
         if time_in_hand(view, stops, length + 1, left, spread) >= 0.0:
             length += 1
         else:
-            for at in range(place, length):
-                stops[at] = stops[at + 1]
+            remove_stops(stops, length + 1, place, 1)
 
 
 @kernel
@@ -168,8 +164,13 @@ def cheapest_place(view: Outlook, stops: Stops, length: int, node: int) -> tuple
     """Least added time of inserting a node, and the position to insert it at."""
     least, place = np.inf, 1
     for at in range(1, length):
-        before, after = stops[at - 1], stops[at]
-        extra = view.legs[before, node] + view.legs[node, after] - view.legs[before, after]
+        extra = detour(view, stops[at - 1], node, stops[at])
         if extra < least:
             least, place = extra, at
     return least, place
+
+
+@kernel
+def detour(view: Outlook, before: int, node: int, after: int) -> float:
+    """Time in seconds that a node adds between two stops."""
+    return float(view.legs[before, node] + view.legs[node, after] - view.legs[before, after])

@@ -11,8 +11,9 @@ from typing import ClassVar
 
 from fiveroute.routes import Plan, Route
 from fiveroute.sea.agents.teammates import SILENCE
-from fiveroute.sea.courses.course import Course, Outlook
+from fiveroute.sea.courses.course import Course
 from fiveroute.sea.courses.discarding import discard
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.recourse import reconsider, with_recourse
 from fiveroute.sea.run import Run, course_of
 

@@ -12,8 +12,9 @@ import numpy as np
 
 from fiveroute.kernels import kernel
 from fiveroute.routes import Plan
-from fiveroute.sea.courses.course import Outlook, Stops
 from fiveroute.sea.courses.discarding import discard, shed
+from fiveroute.sea.courses.outlook import Outlook
+from fiveroute.sea.courses.stops import Stops, remove_stops
 from fiveroute.sea.luck import leg_luck
 from fiveroute.sea.run import Run, course_of
 from fiveroute.tiers.actuation import LegLaw
@@ -75,6 +76,4 @@ def sail_alone(
         collected += view.profit[j]
         if length == 2:
             return collected, t
-        length -= 1
-        for at in range(length):
-            stops[at] = stops[at + 1]
+        length = remove_stops(stops, length, 0, 1)

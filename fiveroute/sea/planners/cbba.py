@@ -34,7 +34,8 @@ from fiveroute.sea.agents.channel import Channel, Radio
 from fiveroute.sea.agents.consensus import COLLECTED, HELD, NOBODY, Beliefs, View
 from fiveroute.sea.agents.messages import Message
 from fiveroute.sea.agents.teammates import BEAT, SILENCE
-from fiveroute.sea.courses.course import Course, Outlook
+from fiveroute.sea.courses.course import Course
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.picking import offers
 from fiveroute.sea.courses.replanning import TRIALS, replan
 from fiveroute.sea.run import Run, course_of

@@ -19,7 +19,7 @@ from fiveroute.sea.agents.channel import Channel, Radio
 from fiveroute.sea.agents.holdings import Holdings
 from fiveroute.sea.agents.messages import Message
 from fiveroute.sea.agents.teammates import SILENCE
-from fiveroute.sea.courses.course import Outlook
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.recourse import with_recourse
 from fiveroute.sea.run import Run
 

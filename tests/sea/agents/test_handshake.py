@@ -24,7 +24,7 @@ from fiveroute.sea.agents.messages import (
     Void,
 )
 from fiveroute.sea.agents.teammates import SILENCE
-from fiveroute.sea.courses.course import outlook
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.five_tier import FiveTier
 from fiveroute.sea.run import Run
@@ -41,7 +41,7 @@ class Fleet:
         self.run = Run(problem, Luck(world.law, 1, 0), (math.inf,) * 3)
         self.crew = FiveTier(
             self.run,
-            outlook(problem, world.law, 1.645),
+            Outlook.of(problem, world.law, 1.645),
             Plan.of([[1], [2], [3]]),
             channel=Channel(),
             points=world.points,

@@ -11,7 +11,7 @@ from fiveroute.generate import generate
 from fiveroute.sea.bounds.online_bound import Pilot, node_prices
 from fiveroute.sea.bounds.online_value import chart
 from fiveroute.sea.bounds.optimal_policy import OptimalPolicy, Steersman
-from fiveroute.sea.courses.course import Outlook
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.recourse import look_ahead, next_stop, with_recourse
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.run import Run

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from fiveroute.sea.courses.course import IN_CURRENTS, Course, Pace, in_hand, outlook
+from fiveroute.sea.courses.course import Course, in_hand
+from fiveroute.sea.courses.outlook import IN_CURRENTS, Outlook, Pace
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.world import World
 
@@ -27,7 +28,7 @@ def arrivals(world: World, course: Course, runs: int) -> NDArray[np.float64]:
 def test_a_course_without_time_in_hand_is_in_time_as_promised(
     world: World, route: tuple[int, ...], z: float
 ) -> None:
-    view = outlook(world.problem, world.law, z)
+    view = Outlook.of(world.problem, world.law, z)
     course = Course(0, 1000.0, 0.0, 20_000.0, route)
     tight = replace(course, budget=course.budget - in_hand(view, course))
     in_time = (arrivals(world, course, 2000) <= tight.budget).mean()
@@ -41,7 +42,7 @@ def test_a_course_without_time_in_hand_is_in_time_as_promised(
 
 def test_in_currents_the_pace_of_the_leg_home_is_normal(world: World) -> None:
     law = world.law._replace(manoeuvre_time=0.0)
-    plain, view = (outlook(world.problem, law, 1.0, pace) for pace in (None, Pace(1.0, 0.2)))
+    plain, view = (Outlook.of(world.problem, law, 1.0, pace) for pace in (None, Pace(1.0, 0.2)))
     home = len(view.profit) - 1
     times = view.step * np.arange(view.late.shape[1])
     for node in (1, 9, 16):
@@ -57,7 +58,7 @@ def test_in_currents_the_pace_of_the_leg_home_is_normal(world: World) -> None:
 
 
 def test_an_uncertain_anchor_counts(world: World) -> None:
-    view = outlook(world.problem, world.law, 2.0)
+    view = Outlook.of(world.problem, world.law, 2.0)
     sure = Course(0, 0.0, 0.0, 9000.0, ())
     variance = float(view.variance[0, -1])
     unsure = replace(sure, spread=3.0 * variance)

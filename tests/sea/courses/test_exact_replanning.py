@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from fiveroute.routes import Route
-from fiveroute.sea.courses.course import Course, Outlook, in_hand, outlook
+from fiveroute.sea.courses.course import Course, in_hand
 from fiveroute.sea.courses.exact_replanning import best_courses
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.world import World
 
 
@@ -40,7 +41,7 @@ def judged(
 @pytest.mark.parametrize("seed", range(8))
 def test_it_finds_what_trying_all_finds(seed: int, world: World) -> None:
     rng = np.random.default_rng(seed)
-    view = outlook(world.problem, world.law, float(rng.choice([0.0, 1.645])))
+    view = Outlook.of(world.problem, world.law, float(rng.choice([0.0, 1.645])))
     nodes = np.sort(rng.choice(np.arange(1, 25), 4, replace=False))
     courses = [
         Course(int(anchor), 100.0, float(rng.uniform(0.0, 1e4)), float(rng.uniform(1e3, 9e3)), ())
@@ -51,7 +52,7 @@ def test_it_finds_what_trying_all_finds(seed: int, world: World) -> None:
 
 
 def test_who_is_late_sails_home(world: World) -> None:
-    view = outlook(world.problem, world.law, 1.645)
+    view = Outlook.of(world.problem, world.law, 1.645)
     late, early = Course(3, 9000.0, 0.0, 9000.0, ()), Course(4, 0.0, 0.0, 1e6, ())
     routes = best_courses(view, [late, early], np.array([1, 2]))
     assert routes[0] == ()

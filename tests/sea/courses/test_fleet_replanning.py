@@ -8,15 +8,16 @@ import pytest
 
 from fiveroute.routes import Plan, Route
 from fiveroute.sea.courses import fleet_replanning
-from fiveroute.sea.courses.course import Course, Outlook, in_hand, outlook
+from fiveroute.sea.courses.course import Course, in_hand
 from fiveroute.sea.courses.exact_replanning import best_courses
 from fiveroute.sea.courses.fleet_replanning import replan_fleet
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.world import World
 
 
 @pytest.fixture
 def view(world: World) -> Outlook:
-    return outlook(world.problem, world.law, 1.645)
+    return Outlook.of(world.problem, world.law, 1.645)
 
 
 def data(view: Outlook, routes: tuple[Route, ...]) -> float:

@@ -8,14 +8,14 @@ import pytest
 from fiveroute.generate import generate
 from fiveroute.limits import Limits
 from fiveroute.routes import Plan
-from fiveroute.sea.courses.course import Outlook, outlook
 from fiveroute.sea.courses.option_search import best_options
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.recourse import with_recourse
 from fiveroute.sea.world import World
 
 
 def view_of(world: World) -> Outlook:
-    return with_recourse(outlook(world.problem, world.law, 1.645))
+    return with_recourse(Outlook.of(world.problem, world.law, 1.645))
 
 
 def search(world: World, plan: Plan, trials: int) -> tuple[Plan, float]:

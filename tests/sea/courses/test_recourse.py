@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 
 from fiveroute.generate import generate
 from fiveroute.instance import Uncertainty
-from fiveroute.sea.courses.course import Course, Outlook, in_hand, outlook
+from fiveroute.sea.courses.course import Course, in_hand
 from fiveroute.sea.courses.discarding import discard
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.recourse import look_ahead, next_stop, reconsider, with_recourse
 from fiveroute.sea.courses.replanning import TRIALS, replan
 from fiveroute.sea.world import World
@@ -20,7 +21,7 @@ ROUTE: tuple[int, ...] = (4, 7, 2, 9, 12, 6)
 
 @pytest.fixture(scope="module")
 def view(world: World) -> Outlook:
-    return with_recourse(outlook(world.problem, world.law, 1.645))
+    return with_recourse(Outlook.of(world.problem, world.law, 1.645))
 
 
 def value(view: Outlook, route: tuple[int, ...], left: float) -> tuple[int, float]:
@@ -78,7 +79,7 @@ def test_what_comes_out_keeps_the_reserve(
     nodes: int, seed: int, budget: float, reserve: float
 ) -> None:
     world = World.of(generate(nodes=nodes, seed=seed, fleet_size=1))
-    view = with_recourse(outlook(world.problem, world.law, reserve))
+    view = with_recourse(Outlook.of(world.problem, world.law, reserve))
     order = tuple((np.random.default_rng(seed).permutation(nodes) + 1).tolist())
     before = Course(0, 0.0, 0.0, budget, order[: nodes // 2])
     after, left_over = reconsider(view, before, order[nodes // 2 :])
@@ -87,14 +88,14 @@ def test_what_comes_out_keeps_the_reserve(
 
 
 def test_who_keeps_a_reserve_for_the_longest_leg_does_not_look_ahead(world: World) -> None:
-    plain, course = outlook(world.problem, world.law, 1.645), Course(0, 0.0, 0.0, 9000.0, ROUTE)
+    plain, course = Outlook.of(world.problem, world.law, 1.645), Course(0, 0.0, 0.0, 9000.0, ROUTE)
     assert reconsider(plain, course, (1, 3)) == replan(plain, course, (1, 3), TRIALS, 0)
 
 
 def test_where_nothing_is_uncertain_a_plan_that_fits_is_sailed() -> None:
     calm = Uncertainty(drift=0.0, manoeuvres_per_km=0.0, manoeuvre_time=0.0)
     world = World.of(generate(nodes=10, seed=2, fleet_size=1), uncertainty=calm)
-    view = with_recourse(outlook(world.problem, world.law, 1.645))
+    view = with_recourse(Outlook.of(world.problem, world.law, 1.645))
     course = Course(0, 0.0, 0.0, 1e5, (3, 5, 1))
     tight = replace(course, budget=1e5 - in_hand(view, course) + 1e-3)
     assert set(reconsider(view, tight, ())[0].route) == {3, 5, 1}

@@ -7,15 +7,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fiveroute.generate import generate
-from fiveroute.sea.courses.course import Course, Outlook, in_hand, outlook
+from fiveroute.sea.courses.course import Course, in_hand
 from fiveroute.sea.courses.discarding import discard
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.replanning import replan
 from fiveroute.sea.world import World
 
 
 def view_of(nodes: int, seed: int, reserve: float) -> Outlook:
     world = World.of(generate(nodes=nodes, seed=seed, fleet_size=1))
-    return outlook(world.problem, world.law, reserve)
+    return Outlook.of(world.problem, world.law, reserve)
 
 
 def data(view: Outlook, course: Course) -> float:

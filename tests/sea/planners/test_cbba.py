@@ -10,7 +10,7 @@ from fiveroute.routes import Plan
 from fiveroute.sea.agents.channel import Channel
 from fiveroute.sea.agents.consensus import COLLECTED
 from fiveroute.sea.agents.teammates import SILENCE
-from fiveroute.sea.courses.course import outlook
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.cbba import Cbba
 from fiveroute.sea.run import Run
@@ -30,7 +30,7 @@ def random_mission(seed: int, loss: float = 0.0, failures: float = 0.0) -> tuple
     run = Run(problem, Luck(world.law, seed, 0), failure_times(problem.budgets, failures, seed, 0))
     crew = Cbba(
         run,
-        outlook(problem, world.law, 1.645),
+        Outlook.of(problem, world.law, 1.645),
         plan,
         channel=Channel(loss=loss),
         points=world.points,
@@ -74,7 +74,7 @@ def test_a_failed_teammate_is_replaced(world: World) -> None:
     run = Run(problem, Luck(world.law, 1, 0), (10.0, math.inf))
     crew = Cbba(
         run,
-        outlook(problem, world.law, 1.645),
+        Outlook.of(problem, world.law, 1.645),
         plan,
         channel=Channel(),
         points=world.points,

@@ -11,7 +11,8 @@ from fiveroute.generate import generate
 from fiveroute.routes import Plan
 from fiveroute.sea.agents.channel import Bursts, Channel
 from fiveroute.sea.agents.teammates import BEAT, SILENCE
-from fiveroute.sea.courses.course import in_hand, outlook
+from fiveroute.sea.courses.course import in_hand
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.events import Frame, Kind
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.five_tier import FiveTier, first_keepers
@@ -70,7 +71,7 @@ def faulty_mission(seed: int, failures: float) -> tuple[WatchedRun, FiveTier]:
         bursts=Bursts() if rng.random() < 0.3 else None,
         jitter=float(rng.choice([0.0, 60.0, 300.0])),
     )
-    view = outlook(problem, world.law, float(rng.choice([0.0, 1.645])))
+    view = Outlook.of(problem, world.law, float(rng.choice([0.0, 1.645])))
     fails = failure_times(problem.budgets, failures, seed, 0)
     run = WatchedRun(problem, Luck(world.law, seed, 0), fails)
     crew = FiveTier(
@@ -120,7 +121,7 @@ def test_over_a_perfect_channel_every_node_stays_with_somebody() -> None:
         world = World.of(generate(nodes=12, seed=seed, fleet_size=3))
         problem = world.problem.with_budgets([9000.0] * 3)
         plan = Plan.of([range(1, 5), range(5, 9), ()])
-        view = outlook(problem, world.law, 1.645)
+        view = Outlook.of(problem, world.law, 1.645)
         run = Run(problem, Luck(world.law, seed, 0), (math.inf,) * 3)
         rng = np.random.default_rng(0)
         crew = FiveTier(run, view, plan, channel=Channel(), points=world.points, rng=rng)
@@ -136,7 +137,7 @@ def test_a_failed_teammate_is_replaced(world: World) -> None:
     instance = generate(nodes=24, seed=3)
     problem = instance.problem(2).with_budgets([30_000.0, 30_000.0])
     plan = Plan.of([range(1, 13), range(13, 19)])
-    view = outlook(problem, world.law, 1.645)
+    view = Outlook.of(problem, world.law, 1.645)
     run = Run(problem, Luck(world.law, 1, 0), (10.0, math.inf))
     rng = np.random.default_rng(0)
     crew = FiveTier(run, view, plan, channel=Channel(), points=world.points, rng=rng)
@@ -153,7 +154,7 @@ def test_an_auction_takes_few_messages() -> None:
     for seed in range(20):
         world = World.of(generate(nodes=9, seed=seed, fleet_size=4))
         plan = Plan.of([[6], [7], [8], [9]])
-        view = outlook(world.problem, world.law, 1.645)
+        view = Outlook.of(world.problem, world.law, 1.645)
         run = Run(world.problem, Luck(world.law, seed, 0), (math.inf,) * 4)
         rng = np.random.default_rng(0)
         crew = FiveTier(run, view, plan, channel=Channel(), points=world.points, rng=rng)

@@ -9,7 +9,7 @@ import pytest
 from fiveroute.generate import generate
 from fiveroute.routes import Plan
 from fiveroute.sea.agents.teammates import SILENCE
-from fiveroute.sea.courses.course import outlook
+from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.all_knowing import AllKnowing
 from fiveroute.sea.planners.ftcmp import Ftcmp
@@ -34,7 +34,7 @@ def sail(
     number: int = 0,
 ) -> Run:
     problem = world.problem.with_budgets(budgets)
-    view = outlook(problem, world.law, 1.645)
+    view = Outlook.of(problem, world.law, 1.645)
     run = Run(problem, Luck(world.law, 1, number), failures or (math.inf,) * len(budgets))
     run.sail(kind(run, view, plan))
     return run
@@ -74,7 +74,7 @@ def test_ftcmp_hands_over_what_a_fault_drops_and_nothing_else(world: World) -> N
 def test_rmmp_shares_all_unvisited_nodes_out(world: World) -> None:
     plan = Plan.of([range(1, 9), range(9, 17)])
     problem = world.problem
-    view = outlook(problem, world.law, 1.645)
+    view = Outlook.of(problem, world.law, 1.645)
     crew = Rmmp(Run(problem, Luck(world.law, 1, 0), (math.inf, math.inf)), view, plan)
     cells = [crew._cell(auv, 0.0) for auv in range(2)]
     assert cells[0] | cells[1] == set(range(1, 25))
@@ -103,7 +103,7 @@ def test_a_plan_in_time_is_left_alone_by_the_faithful() -> None:
 def test_the_state_of_the_fleet_is_shared(world: World) -> None:
     plan = Plan.of([[1, 2], [3]])
     run = Run(world.problem, Luck(world.law, 1, 0), (math.inf, 5.0))
-    crew = AllKnowing(run, outlook(world.problem, world.law, 0.0), plan)
+    crew = AllKnowing(run, Outlook.of(world.problem, world.law, 0.0), plan)
     assert crew.idle == set(range(4, 25))
     assert crew.depart(0) == 1
     assert crew.routes[0] == (2,)
