@@ -32,6 +32,7 @@ from fiveroute.vehicle.guidance import Guidance, Steering, adapted, desired_head
 from fiveroute.vehicle.obstacle_avoidance import Avoidance, Lookout, Manoeuvre, avoid, nearby
 from fiveroute.vehicle.sailed_track import Outcome, SailedTrack, least_clearance
 from fiveroute.vehicle.sonar import land_of, listen
+from fiveroute.vehicle.waypoints import Headway, Place, Waypoints, made_good
 
 __all__ = ["STEP", "sail_track"]
 
@@ -41,44 +42,20 @@ STEP = 0.5
 """Seconds in one step of the motion."""
 
 _ECHOES = 512  # that are remembered
-_PROGRESS = 1.0  # metres that count as progress
 _SLOWEST = 20.0  # times what still water takes, after which a voyage is broken off
 _X, _Y, _HEADING, _ERROR, _MANOEUVRE = range(5)  # columns of the log
 _ARRIVED, _SWEPT, _BLOCKED, _COLLIDED, _LATE = map(int, Outcome)
 _UNDER_WAY = -1
 
 
-class _Course(NamedTuple):
+class _Task(NamedTuple):
     """What to sail, and when to stop trying."""
 
-    track: Floats
-    left: Floats  # metres from each waypoint to the end
+    waypoints: Waypoints
     begin: float
     step: float
-    switch: float
     reach: float
     patience: float
-
-
-class _Way(NamedTuple):
-    """What of a course is made.
-
-    The leg; whether it closes in on the last waypoint; metres left when it last progressed, and
-    when that was.
-    """
-
-    leg: int
-    homing: bool
-    best: float
-    progressed: float
-
-
-class _Place(NamedTuple):
-    """Where a vehicle is on a leg: bearing, metres to port of it, metres left to its end."""
-
-    bearing: float
-    error: float
-    left: float
 
 
 def sail_track(
@@ -132,11 +109,11 @@ def sail_track(
     _require_positive(step=step, patience=patience, longest=longest, switch=switch, reach=reach)
     barriers = _without_edge(barriers or no_barriers())
     pieces = np.hypot(*np.diff(points, axis=0).T)
-    left = np.append(np.cumsum(pieces[::-1])[::-1], 0.0)
+    waypoints = Waypoints.of(points, switch)
     if heading is None:
         east, north = points[np.argmax(pieces > 0.0) + 1] - points[0]
         heading = math.atan2(north, east)
-    time = min(longest, _SLOWEST * left[0] / vehicle.speed + patience)
+    time = min(longest, _SLOWEST * waypoints.left[0] / vehicle.speed + patience)
     log = np.empty((math.ceil(time / step) + 1, 5))
     arrivals = np.full(len(points), math.inf)
     motion = vehicle.motion
@@ -148,7 +125,7 @@ def sail_track(
         grid,
         barriers,
         land_of(barriers),
-        _Course(points, left, *map(float, (begin, step, switch, reach, patience))),
+        _Task(waypoints, *map(float, (begin, step, reach, patience))),
         vehicle.under_way(points[0, 0], points[0, 1], heading),
         log,
         arrivals,
@@ -205,25 +182,25 @@ def _sail(
     grid: CurrentGrid,
     barriers: Barriers,
     land: Barriers,
-    course: _Course,
+    task: _Task,
     state: State,
     log: Floats,
     arrivals: Floats,
 ) -> tuple[int, int]:
     """Fill in the log and the arrivals; return the rows that were written and the outcome."""
-    echoes, heard, ping = np.empty((_ECHOES, 2)), 0, course.begin
-    way, memory, desired = _Way(0, False, math.inf, course.begin), 0.0, state.heading
+    echoes, heard, ping = np.empty((_ECHOES, 2)), 0, task.begin
+    way, memory, desired = Headway(0, False, math.inf, task.begin), 0.0, state.heading
     manoeuvre, number = Manoeuvre(0.0, desired, -math.inf, False), 0
     free = clearance(barriers, state.x, state.y)  # no barrier is nearer than this
-    arrivals[0] = course.begin
+    arrivals[0] = task.begin
     for k in range(len(log)):
-        t = course.begin + k * course.step
+        t = task.begin + k * task.step
         calm = manoeuvre.side == 0.0
 
         # where is it, and is that the end?
-        way, place = _made(course, state, way, t, arrivals)
+        way, place = made_good(task.waypoints, state, way, t, arrivals)
         _write(log, k, state, place, 0 if calm else number)
-        outcome = _outcome(course, way, place, manoeuvre, free, state.surge, t)
+        outcome = _outcome(task, way, place, manoeuvre, free, state.surge, t)
         if outcome != _UNDER_WAY:
             arrivals[-1] = t if outcome == _ARRIVED else math.inf
             return k + 1, outcome
@@ -233,7 +210,7 @@ def _sail(
         if not way.homing:
             aim = desired_heading(steering, place.bearing, place.error, memory)
         if calm and not way.homing:
-            memory = adapted(steering, place.error, memory, course.step)
+            memory = adapted(steering, place.error, memory, task.step)
         desired += _wrapped(aim - desired)
         if t >= ping and not manoeuvre.hopeless:
             ping += lookout.beams.period
@@ -246,34 +223,17 @@ def _sail(
         # go there for a step
         heading = desired if manoeuvre.side == 0.0 else manoeuvre.heading
         engine = astern if manoeuvre.hopeless else motion
-        moved = advance(engine, grid, state, heading, t, course.step)
+        moved = advance(engine, grid, state, heading, t, task.step)
         free = _still_free(barriers, free, state, moved)
         state = moved
     return len(log), _LATE
 
 
 @kernel
-def _made(
-    course: _Course, state: State, way: _Way, t: float, arrivals: Floats
-) -> tuple[_Way, _Place]:
-    """What of the way is made by now, and where on it the vehicle is."""
-    leg = _next_leg(course, state, way.leg, t, arrivals)
-    place, homing, best = _place(course, leg, state), way.homing, way.best
-    if place.left <= 0.0 and not homing:
-        homing, best = True, math.inf
-    if homing:
-        place = _homeward(course, state)
-    left = place.left + course.left[leg + 1]
-    if left < best - _PROGRESS:
-        return _Way(leg, homing, left, t), place
-    return _Way(leg, homing, best, way.progressed), place
-
-
-@kernel
 def _outcome(
-    course: _Course,
-    way: _Way,
-    place: _Place,
+    task: _Task,
+    way: Headway,
+    place: Place,
     manoeuvre: Manoeuvre,
     free: float,
     surge: float,
@@ -282,10 +242,10 @@ def _outcome(
     """How the voyage has ended, if it has."""
     if free < 0.0:
         return _COLLIDED
-    if way.homing and place.left <= course.reach:
+    if way.homing and place.left <= task.reach:
         return _ARRIVED
     stopped = manoeuvre.hopeless and surge <= 0.0
-    if stopped or t - way.progressed > course.patience:
+    if stopped or t - way.progressed > task.patience:
         return _BLOCKED if stopped or manoeuvre.blocked >= way.progressed else _SWEPT
     return _UNDER_WAY
 
@@ -322,43 +282,11 @@ def _look_out(
 
 
 @kernel
-def _next_leg(course: _Course, state: State, leg: int, t: float, arrivals: Floats) -> int:
-    """The leg to sail, once the waypoints that have been reached are left behind."""
-    while leg < len(course.track) - 2 and _place(course, leg, state).left <= course.switch:
-        leg += 1
-        arrivals[leg] = t
-    return leg
-
-
-@kernel
-def _place(course: _Course, leg: int, state: State) -> _Place:
-    x0, y0 = course.track[leg]
-    x1, y1 = course.track[leg + 1]
-    length = course.left[leg] - course.left[leg + 1]
-    if length == 0.0:
-        return _Place(state.heading, 0.0, 0.0)
-    east, north = (x1 - x0) / length, (y1 - y0) / length
-    return _Place(
-        math.atan2(north, east),
-        (state.y - y0) * east - (state.x - x0) * north,
-        (x1 - state.x) * east + (y1 - state.y) * north,
-    )
-
-
-@kernel
-def _homeward(course: _Course, state: State) -> _Place:
-    """Straight to the last waypoint."""
-    x, y = course.track[-1]
-    east, north = x - state.x, y - state.y
-    return _Place(math.atan2(north, east), 0.0, math.hypot(east, north))
-
-
-@kernel
 def _wrapped(angle: float) -> float:
     return angle - 2.0 * math.pi * round(angle / (2.0 * math.pi))
 
 
 @kernel
-def _write(log: Floats, k: int, state: State, place: _Place, manoeuvre: int) -> None:
+def _write(log: Floats, k: int, state: State, place: Place, manoeuvre: int) -> None:
     log[k, _X], log[k, _Y], log[k, _HEADING] = state.x, state.y, state.heading
     log[k, _ERROR], log[k, _MANOEUVRE] = place.error, manoeuvre
