@@ -22,7 +22,8 @@ from fiveroute.formats import read_instance
 from fiveroute.instance import Circle, Currents, Instance, Ocean, Vortex
 from fiveroute.ocean.stated import stated_current
 from fiveroute.paths.reference_path import grid_path
-from fiveroute.tiers.pathing import plan_legs, waters_of
+from fiveroute.paths.stated_waters import waters_of
+from fiveroute.tiers.pathing import plan_legs
 
 
 def in_strong_vortices(instance: Instance, rng: np.random.Generator) -> Instance:

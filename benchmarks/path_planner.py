@@ -33,9 +33,9 @@ from fiveroute.paths.differential_evolution import (
     genes_of,
 )
 from fiveroute.paths.first_paths import first_controls
-from fiveroute.paths.legs import Waters
 from fiveroute.paths.path_cost import PathProblem, path_problem
 from fiveroute.paths.polish import polish
+from fiveroute.paths.waters import Waters
 
 SIDE, SPANS, BOUND, WEIGHT = 5000.0, 5, 0.4, 0.02
 SAME = 1.0 + 1e-4  # times scipy's score: as good

@@ -114,7 +114,8 @@ def _sailed(
 
 def _fastest(mission: Instance, plan: Plan, current: Superposition) -> NDArray[np.float64]:
     """Times of the fastest paths for the legs of a plan that states none."""
-    from fiveroute.tiers.pathing import plan_legs, waters_of
+    from fiveroute.paths.stated_waters import waters_of
+    from fiveroute.tiers.pathing import plan_legs
 
     last = len(mission.nodes) + 1
     legs = {leg for route in plan.routes for leg in itertools.pairwise((0, *route, last))}

@@ -61,7 +61,8 @@ def command(
     from fiveroute.formats import read_instance
     from fiveroute.limits import Limits
     from fiveroute.ocean.stated import stated_current
-    from fiveroute.tiers.pathing import plan_path, waters_of
+    from fiveroute.paths.stated_waters import waters_of
+    from fiveroute.tiers.pathing import plan_path
 
     require_output(picture, force)
     require_picture(picture)

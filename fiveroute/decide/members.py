@@ -24,8 +24,8 @@ from fiveroute.ocean.obstacles import refuse_points_inside
 from fiveroute.ocean.stated import filed_current, stated_barriers, stated_current
 from fiveroute.ocean.uncertain_ocean import VortexUncertainty, draw_truth
 from fiveroute.paths.legs import track_clearance, track_time
+from fiveroute.paths.stated_waters import waters_of
 from fiveroute.paths.voyage import Voyage
-from fiveroute.tiers.pathing import waters_of
 
 __all__ = ["drawn_members", "filed_members", "lost_share", "member_times"]
 

@@ -19,7 +19,7 @@ from matplotlib.patches import Circle, Polygon
 
 from fiveroute.colours import COLOURS
 from fiveroute.instance import Instance
-from fiveroute.paths.legs import Waters
+from fiveroute.paths.waters import Waters
 from fiveroute.routes import Route
 from fiveroute.tiers.pathing import PlannedPath
 from fiveroute.words import printable

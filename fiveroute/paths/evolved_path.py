@@ -37,7 +37,6 @@ from fiveroute.paths.differential_evolution import (
     evolved_population,
 )
 from fiveroute.paths.first_paths import first_controls, joined
-from fiveroute.paths.legs import Waters
 from fiveroute.paths.path import Path, track_path
 from fiveroute.paths.path_cost import PathProblem, path_cost, path_problem
 from fiveroute.paths.polish import merit, polish
@@ -48,6 +47,7 @@ from fiveroute.paths.spline import (
     spline_curvature,
     spline_points,
 )
+from fiveroute.paths.waters import Waters
 
 __all__ = ["THOROUGH", "DifferentialEvolution", "evolve_path"]
 

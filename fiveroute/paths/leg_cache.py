@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.paths.leg_table import LegTable
-from fiveroute.paths.legs import Waters
+from fiveroute.paths.waters import Waters
 from fiveroute.whole_files import written_whole
 
 __all__ = ["cache_folder", "keep_table", "kept_table", "table_key"]

@@ -16,54 +16,20 @@ the end of the last piece suggests.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.errors import InputError
 from fiveroute.kernels import kernel
 from fiveroute.ocean.barriers import Barriers, leg_clearance
 from fiveroute.ocean.current_grid import CurrentGrid, velocity
 
-__all__ = ["Waters", "ground_speed", "leg_time", "track_clearance", "track_time"]
+__all__ = ["ground_speed", "leg_time", "track_clearance", "track_time"]
 
 Floats = NDArray[np.float64]
 
 _STANDSTILL = 1e-3  # ground speed in metres per second that counts as none
 _NODE = 0.5 * math.sqrt(0.6)  # of the three-point rule, from the middle of a piece
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Waters:
-    """What a path planner knows of the ocean and of the vehicle.
-
-    Parameters
-    ----------
-    grid
-        The current.
-    barriers
-        Obstacles, land, and the edge of the region.
-    speed
-        V, speed through the water in metres per second.
-    turning_radius
-        Least radius of a turn in metres; 0 turns on the spot.
-    """
-
-    grid: CurrentGrid
-    barriers: Barriers
-    speed: float
-    turning_radius: float = 0.0
-
-    def __post_init__(self) -> None:
-        if not self.speed > 0.0:
-            raise InputError("an AUV must move", field="speed", value=self.speed)
-        if not self.turning_radius >= 0.0:
-            raise InputError(
-                "a turning radius must not be negative",
-                field="turning_radius",
-                value=self.turning_radius,
-            )
 
 
 @kernel

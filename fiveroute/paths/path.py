@@ -9,7 +9,8 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.paths.legs import Waters, track_clearance, track_time
+from fiveroute.paths.legs import track_clearance, track_time
+from fiveroute.paths.waters import Waters
 
 __all__ = ["Path", "PathStatus", "track_curvature", "track_path"]
 

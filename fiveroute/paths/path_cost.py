@@ -26,8 +26,9 @@ from numpy.typing import NDArray
 from fiveroute.kernels import kernel
 from fiveroute.ocean.barriers import Barriers, clearance
 from fiveroute.ocean.current_grid import CurrentGrid, velocity
-from fiveroute.paths.legs import Waters, ground_speed
+from fiveroute.paths.legs import ground_speed
 from fiveroute.paths.spline import SplineTable, gauss_table, regular_table, straight_control
+from fiveroute.paths.waters import Waters
 
 __all__ = [
     "PathProblem",

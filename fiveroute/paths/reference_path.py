@@ -28,8 +28,9 @@ from fiveroute.paths.grid_search import (
     stencil,
     surroundings,
 )
-from fiveroute.paths.legs import Waters, track_time
+from fiveroute.paths.legs import track_time
 from fiveroute.paths.straighten import straighten
+from fiveroute.paths.waters import Waters
 
 __all__ = ["GridPath", "grid_path", "grid_paths"]
 

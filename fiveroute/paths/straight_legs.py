@@ -47,7 +47,8 @@ from fiveroute.kernels import kernel
 from fiveroute.ocean.barriers import leg_clearance
 from fiveroute.ocean.current_grid import CurrentGrid, velocity
 from fiveroute.paths.current_bounds import fastest_bound, gradient_within
-from fiveroute.paths.legs import Waters, leg_time
+from fiveroute.paths.legs import leg_time
+from fiveroute.paths.waters import Waters
 
 __all__ = ["are_straight", "straight_gaps"]
 

@@ -41,7 +41,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from fiveroute.kernels import kernel
 from fiveroute.ocean.current_grid import CurrentGrid, velocity
-from fiveroute.paths.legs import Waters, track_time
+from fiveroute.paths.legs import track_time
+from fiveroute.paths.waters import Waters
 
 __all__ = ["Extremal", "extremal", "uniform_flow_time", "zermelo_path"]
 

@@ -101,7 +101,7 @@ class VehicleModel:
         grid = barriers = None
         if voyage.legs is not None:
             from fiveroute.ocean.stated import stated_current
-            from fiveroute.tiers.pathing import waters_of
+            from fiveroute.paths.stated_waters import waters_of
 
             longest = float(np.max(instance.fleet.endurance or 0.0))
             current = stated_current(voyage.mission, folder)

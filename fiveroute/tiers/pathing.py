@@ -27,37 +27,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.check_paths import sailing_time
-from fiveroute.instance import Circle, Instance
+from fiveroute.instance import Instance
 from fiveroute.kernels import source_digest
 from fiveroute.limits import Clock, Limits, Progress, ProgressCallback
-from fiveroute.ocean.current_grid import Region, grid_current
-from fiveroute.ocean.currents import Current, Superposition
-from fiveroute.ocean.model_current import ModelCurrent
-from fiveroute.ocean.obstacles import refuse_points_inside
-from fiveroute.ocean.stated import stated_barriers, stated_current
+from fiveroute.ocean.current_grid import Region
+from fiveroute.ocean.currents import Current
+from fiveroute.ocean.stated import stated_current
 from fiveroute.paths.evolved_path import THOROUGH, evolve_path
 from fiveroute.paths.leg_cache import keep_table, kept_table, table_key
 from fiveroute.paths.leg_table import LegTable
-from fiveroute.paths.legs import Waters, track_clearance
+from fiveroute.paths.legs import track_clearance
 from fiveroute.paths.path import Path, track_path
 from fiveroute.paths.reference_path import grid_path, grid_paths
+from fiveroute.paths.stated_waters import GRID_ERROR, waters_of
 from fiveroute.paths.straight_legs import are_straight
 from fiveroute.paths.thinning import thinned
 from fiveroute.paths.voyage import Voyage
+from fiveroute.paths.waters import Waters
 
-__all__ = ["PlannedPath", "at_sea", "plan_legs", "plan_path", "waters_of"]
+__all__ = ["PlannedPath", "at_sea", "plan_legs", "plan_path"]
 
 Floats = NDArray[np.float64]
 Leg = tuple[int, int]
-
-_MARGIN = 0.25
-"""How far paths may leave the rectangle around all stops, as a share of its diagonal."""
-
-_LEAST_MARGIN = 500.0
-"""The same, at least, in metres."""
-
-_ERROR = 2e-4
-"""Error in metres per second that the interpolation of the current may have."""
 
 _REPORT_EVERY = 20
 """Legs between two reports of progress."""
@@ -151,42 +142,6 @@ def at_sea(
         tuple(instance.nodes[node - 1].id for node in lost),
         is_complete,
         current if is_hasty else None,
-    )
-
-
-def waters_of(instance: Instance, current: Superposition, *, duration: float = 0.0) -> Waters:
-    """The ocean of an instance as path planners see it.
-
-    Parameters
-    ----------
-    instance
-        The instance.
-    current
-        Its current, see `fiveroute.ocean.stated`.
-    duration
-        How long it is needed from the beginning of the mission, in seconds; 0 holds a current
-        that varies as it is when the mission begins.
-
-    Raises
-    ------
-    InputError
-        If start, destination or a node lies inside an obstacle or on land, or beyond what the
-        file of currents covers.
-    """
-    region = _region(instance)
-    current(*instance.points.T)  # refuses stops beyond the data
-    barriers = stated_barriers(instance, current, region)
-    refuse_points_inside(instance, barriers)
-    parts = (
-        replace(part, extends=True) if isinstance(part, ModelCurrent) else part
-        for part in current.parts
-    )
-    current = Superposition(tuple(parts))
-    return Waters(
-        grid_current(current, region, duration=duration, tolerance=_ERROR),
-        barriers,
-        instance.fleet.speed,
-        instance.fleet.turning_radius,
     )
 
 
@@ -294,8 +249,8 @@ def plan_legs(
         path = paths[leg]
         track = _thinned(waters, path.waypoints)
         length = float(np.hypot(*np.diff(track, axis=0).T).sum())
-        if clock.expired and _ERROR * path.duration < 0.5 * _HASTE * length:
-            return (1.0 + _HASTE) * path.duration, track  # its error is _ERROR over ground speed
+        if clock.expired and GRID_ERROR * path.duration < 0.5 * _HASTE * length:
+            return (1.0 + _HASTE) * path.duration, track  # errs by GRID_ERROR over ground speed
         return sailing_time(track, current, waters.speed), track
 
     with ThreadPoolExecutor(os.cpu_count()) as workers:
@@ -340,17 +295,3 @@ def _ways_round(
             if len(path.track)
         }
     return tracks
-
-
-def _region(instance: Instance) -> Region:
-    """Where paths may lead: around all stops and obstacles, with room for detours."""
-    corners = [instance.points]
-    for shape in instance.ocean.obstacles:
-        if isinstance(shape, Circle):
-            centre, reach = np.array([shape.x, shape.y]), shape.radius
-            corners.append(np.array([centre - reach, centre + reach]))
-        else:
-            corners.append(np.array(shape.polygon))
-    points = np.concatenate(corners)
-    diagonal = float(np.hypot(*np.ptp(points, axis=0)))
-    return Region.around(points, max(_MARGIN * diagonal, _LEAST_MARGIN))

@@ -19,8 +19,8 @@ from fiveroute.paths.differential_evolution import (
     genes_of,
     new_population,
 )
-from fiveroute.paths.legs import Waters
 from fiveroute.paths.path_cost import PathProblem, path_cost, path_problem
+from fiveroute.paths.waters import Waters
 from fiveroute.randomness import random_state
 
 REGION = Region(-500.0, -2000.0, 4500.0, 2000.0)

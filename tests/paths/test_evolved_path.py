@@ -12,8 +12,9 @@ from fiveroute.ocean.current_grid import Region, grid_current
 from fiveroute.ocean.currents import Current, LambVortices, UniformCurrent
 from fiveroute.paths.differential_evolution import Variant
 from fiveroute.paths.evolved_path import THOROUGH, DifferentialEvolution, evolve_path
-from fiveroute.paths.legs import Waters, track_time
+from fiveroute.paths.legs import track_time
 from fiveroute.paths.path import PathStatus
+from fiveroute.paths.waters import Waters
 
 REGION = Region(-1000.0, -2500.0, 5000.0, 2500.0)
 START, GOAL = (0.0, 0.0), (4000.0, 0.0)

@@ -5,8 +5,9 @@ from fiveroute.ocean.barriers import Barriers, no_barriers
 from fiveroute.ocean.current_grid import Region, grid_current
 from fiveroute.ocean.currents import UniformCurrent
 from fiveroute.paths.first_paths import arcs, detours, first_controls, joined, sideways
-from fiveroute.paths.legs import Waters, track_clearance
+from fiveroute.paths.legs import track_clearance
 from fiveroute.paths.path_cost import path_cost, path_problem
+from fiveroute.paths.waters import Waters
 
 START, GOAL = np.array([0.0, 0.0]), np.array([3000.0, 4000.0])
 ALONG, LEFT = np.array([0.6, 0.8]), np.array([-0.8, 0.6])

@@ -12,7 +12,7 @@ from fiveroute.ocean.current_grid import Region, grid_current
 from fiveroute.ocean.currents import UniformCurrent
 from fiveroute.paths.leg_cache import cache_folder, keep_table, kept_table, table_key
 from fiveroute.paths.leg_table import LegTable
-from fiveroute.paths.legs import Waters
+from fiveroute.paths.waters import Waters
 
 
 def table() -> LegTable:

@@ -6,8 +6,8 @@ import pytest
 from fiveroute.ocean.barriers import no_barriers
 from fiveroute.ocean.current_grid import Region, grid_current
 from fiveroute.ocean.currents import UniformCurrent
-from fiveroute.paths.legs import Waters
 from fiveroute.paths.path import Path, PathStatus, track_curvature, track_path
+from fiveroute.paths.waters import Waters
 
 CIRCLE = no_barriers()._replace(circles=np.array([[500.0, 0.0, 100.0]]))
 STRAIGHT = np.array([[0.0, 0.0], [1000.0, 0.0]])

@@ -8,7 +8,6 @@ from scipy.interpolate import BSpline
 from fiveroute.ocean.barriers import Barriers, no_barriers
 from fiveroute.ocean.current_grid import Region, grid_current
 from fiveroute.ocean.currents import Current, LambVortices, Shear, UniformCurrent
-from fiveroute.paths.legs import Waters
 from fiveroute.paths.path_cost import (
     PathProblem,
     collision,
@@ -18,6 +17,7 @@ from fiveroute.paths.path_cost import (
     shortfall,
 )
 from fiveroute.paths.spline import gauss_table, regular_table
+from fiveroute.paths.waters import Waters
 
 REGION = Region(-500.0, -2000.0, 4500.0, 2000.0)
 START, GOAL = np.array([0.0, 0.0]), np.array([4000.0, 0.0])

@@ -11,12 +11,10 @@ from hypothesis import strategies as st
 from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import quad, solve_ivp
 
-from fiveroute.errors import InputError
 from fiveroute.ocean.barriers import no_barriers
 from fiveroute.ocean.current_grid import CurrentGrid, Region, grid_current, velocity
 from fiveroute.ocean.currents import Current, LambVortices, Shear, UniformCurrent
 from fiveroute.paths.legs import (
-    Waters,
     ground_speed,
     leg_time,
     track_clearance,
@@ -214,13 +212,3 @@ def test_a_track_is_as_clear_as_its_worst_leg() -> None:
     assert track_clearance(pillar, track[:1]) == math.inf
     through = np.array([[0.0, 0.0], [50.0, 0.0], [50.0, 100.0]])
     assert track_clearance(pillar, through) == pytest.approx(-10.0)
-
-
-def test_an_auv_must_move_and_turn() -> None:
-    assert Waters(STILL, no_barriers(), 1.0).turning_radius == 0.0
-    for speed in (0.0, -1.0, math.nan):
-        with pytest.raises(InputError, match=r"speed: .*: an AUV must move"):
-            Waters(STILL, no_barriers(), speed)
-    for radius in (-1.0, math.nan):
-        with pytest.raises(InputError, match=r"turning_radius: .*must not be negative"):
-            Waters(STILL, no_barriers(), 1.0, radius)

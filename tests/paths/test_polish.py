@@ -6,9 +6,9 @@ import pytest
 from fiveroute.ocean.barriers import no_barriers
 from fiveroute.ocean.current_grid import Region, grid_current
 from fiveroute.ocean.currents import Current, Shear, UniformCurrent
-from fiveroute.paths.legs import Waters
 from fiveroute.paths.path_cost import PathProblem, path_cost, path_problem
 from fiveroute.paths.polish import merit, polish
+from fiveroute.paths.waters import Waters
 
 REGION = Region(-500.0, -2500.0, 4500.0, 2500.0)
 START, GOAL = np.array([0.0, 0.0]), np.array([4000.0, 0.0])

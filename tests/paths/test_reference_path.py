@@ -16,8 +16,9 @@ from fiveroute.ocean.currents import (
     UniformCurrent,
 )
 from fiveroute.paths.grid_search import stencil
-from fiveroute.paths.legs import Waters, track_clearance, track_time
+from fiveroute.paths.legs import track_clearance, track_time
 from fiveroute.paths.reference_path import grid_path, grid_paths
+from fiveroute.paths.waters import Waters
 from fiveroute.paths.zermelo import uniform_flow_time, zermelo_path
 
 SQUARE = Region(-500.0, -500.0, 5500.0, 5500.0)

@@ -16,9 +16,10 @@ from fiveroute.ocean.currents import (
     Superposition,
     UniformCurrent,
 )
-from fiveroute.paths.legs import Waters, track_time
+from fiveroute.paths.legs import track_time
 from fiveroute.paths.reference_path import grid_path
 from fiveroute.paths.straight_legs import are_straight, straight_gaps
+from fiveroute.paths.waters import Waters
 from fiveroute.paths.zermelo import zermelo_path
 
 SQUARE = Region(-500.0, -500.0, 5500.0, 5500.0)

@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from fiveroute.ocean.barriers import no_barriers
 from fiveroute.ocean.current_grid import CurrentGrid, Region, grid_current
 from fiveroute.ocean.currents import DoubleGyre, LambVortices, Shear, UniformCurrent
-from fiveroute.paths.legs import Waters, leg_time, track_time
+from fiveroute.paths.legs import leg_time, track_time
+from fiveroute.paths.waters import Waters
 from fiveroute.paths.zermelo import _Task, extremal, uniform_flow_time, zermelo_path
 
 SQUARE = Region(-500.0, -500.0, 5500.0, 5500.0)

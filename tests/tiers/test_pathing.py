@@ -13,7 +13,6 @@ from shapely import LineString
 from shapely import Point as Spot
 
 from fiveroute.check_paths import sailing_time
-from fiveroute.errors import InputError
 from fiveroute.fleet_planning import plan
 from fiveroute.instance import (
     Circle,
@@ -29,9 +28,10 @@ from fiveroute.instance import (
 )
 from fiveroute.limits import Limits, Progress
 from fiveroute.ocean.stated import stated_current
-from fiveroute.paths.legs import Waters
+from fiveroute.paths.stated_waters import waters_of
+from fiveroute.paths.waters import Waters
 from fiveroute.result import Status
-from fiveroute.tiers.pathing import at_sea, plan_legs, plan_path, waters_of
+from fiveroute.tiers.pathing import at_sea, plan_legs, plan_path
 
 STILL = Ocean()
 STREAM = Ocean(Currents(uniform=Uniform(0.4, 0.0)))
@@ -174,11 +174,6 @@ def test_against_too_strong_a_stream_nothing_is_reached() -> None:
     assert voyage.unreachable == ("n0", "n1", "n2")
     problem = voyage.instance.problem(travel=voyage.travel)
     assert problem.travel[0, -1] > problem.allowed[0]
-
-
-def test_a_stop_inside_an_obstacle_is_refused() -> None:
-    with pytest.raises(InputError, match="n2"):
-        waters(Ocean(obstacles=(Circle(2000.0, 1100.0, 150.0),)))
 
 
 def test_still_open_water_needs_no_planning() -> None:
