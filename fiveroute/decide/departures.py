@@ -97,7 +97,7 @@ def _moments(instance: Instance, hours: Sequence[float], folder: Path | None) ->
             "needs a forecast that varies; name a CF netCDF file of currents",
             field="ocean.currents.file",
         )
-    times = forecast.coverage().time
+    times = forecast.coverage.time
     if times is None or forecast.is_steady:
         raise InputError(
             "holds a single time; a file of several is needed", field="ocean.currents.file"

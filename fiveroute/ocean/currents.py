@@ -33,6 +33,8 @@ __all__ = ["Current", "DoubleGyre", "LambVortices", "Shear", "Superposition", "U
 
 Floats = NDArray[np.float64]
 
+_CENTRE = 1e-12  # squared distance from a centre, in radii, below which the core turns rigidly
+
 
 class Current(Protocol):
     """A velocity field of the water."""
@@ -275,6 +277,3 @@ class Superposition:
             u += more[0]
             v += more[1]
         return u, v
-
-
-_CENTRE = 1e-12  # squared distance from a centre, in radii, below which the core turns rigidly

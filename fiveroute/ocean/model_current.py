@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -30,6 +30,7 @@ from fiveroute.ocean.local_plane import LocalPlane
 from fiveroute.ocean.model_file import open_model_file
 from fiveroute.ocean.model_grid import MapGrid, resample
 from fiveroute.ocean.model_source import Source, read_source
+from fiveroute.ocean.model_times import seconds_since
 
 if TYPE_CHECKING:
     from fiveroute.ocean.current_grid import Region
@@ -78,8 +79,8 @@ class ModelCurrent:
         Seconds since the mission began, growing, shape (times,); one for a steady current.
     plane
         The map.
-    ranges
-        What `coverage` returns.
+    coverage
+        Where and when there are data.
     provenance
         What was understood of the file, by subject.
     source
@@ -92,7 +93,7 @@ class ModelCurrent:
     grid: MapGrid
     times: Floats
     plane: LocalPlane
-    ranges: Coverage
+    coverage: Coverage
     provenance: dict[str, str]
     source: tuple[str, str]
     extends: bool = False
@@ -140,7 +141,7 @@ class ModelCurrent:
         InputError
             If it has none.
         """
-        (west, east), (south, north) = self.ranges.x, self.ranges.y
+        (west, east), (south, north) = self.coverage.x, self.coverage.y
         part = region._replace(
             west=max(region.west, west),
             south=max(region.south, south),
@@ -150,13 +151,9 @@ class ModelCurrent:
         if part.west > part.east or part.south > part.north:
             raise self._outside(
                 f"x = {_shown(region[::2])} m and y = {_shown(region[1::2])} m asked, but the "
-                f"data cover x = {_shown(self.ranges.x)} m and y = {_shown(self.ranges.y)} m"
+                f"data cover x = {_shown(self.coverage.x)} m and y = {_shown(self.coverage.y)} m"
             )
         return part
-
-    def coverage(self) -> Coverage:
-        """Where and when there are data."""
-        return self.ranges
 
     def __call__(self, x: ArrayLike, y: ArrayLike, t: ArrayLike = 0.0) -> tuple[Floats, Floats]:
         """Velocity at positions and times.
@@ -204,8 +201,8 @@ class ModelCurrent:
 
     def _require_covered(self, x: Floats, y: Floats, row: Floats, column: Floats) -> None:
         everywhere = (-math.inf, math.inf)
-        self._require("x", x, everywhere if self.extends else self.ranges.x, "m")
-        self._require("y", y, everywhere if self.extends else self.ranges.y, "m")
+        self._require("x", x, everywhere if self.extends else self.coverage.x, "m")
+        self._require("y", y, everywhere if self.extends else self.coverage.y, "m")
         if self.extends:
             return
         rows, columns = self.grid.covered.shape
@@ -214,8 +211,8 @@ class ModelCurrent:
         if not self.grid.covered[j, i].all():
             raise self._outside(
                 f"x = {_shown(x)} m with y = {_shown(y)} m asked, of which a part lies beyond "
-                f"the edge of the data in x = {_shown(self.ranges.x)} m, "
-                f"y = {_shown(self.ranges.y)} m"
+                f"the edge of the data in x = {_shown(self.coverage.x)} m, "
+                f"y = {_shown(self.coverage.y)} m"
             )
 
     def _require(self, name: str, asked: Floats, available: Range, unit: str) -> None:
@@ -229,9 +226,9 @@ class ModelCurrent:
             )
 
     def _clock(self, name: str) -> str:
-        if name != "t" or self.ranges.time is None:
+        if name != "t" or self.coverage.time is None:
             return ""
-        first, last = (np.datetime_as_string(time, unit="s") for time in self.ranges.time)
+        first, last = (np.datetime_as_string(time, unit="s") for time in self.coverage.time)
         return f" ({first} .. {last} UTC)"
 
     def _outside(self, rule: str) -> InputError:
@@ -290,7 +287,7 @@ def read_current(
 def _current(
     source: Source, path: Path, begin: datetime | np.datetime64 | str | None
 ) -> ModelCurrent:
-    times, note = _since(source.times, begin)
+    times, note = seconds_since(source.times, begin)
     grid = resample(source.cells)
     velocity, notes = source.velocity, source.notes
     return ModelCurrent(
@@ -316,41 +313,3 @@ def _reach_of(covered: Booleans, first: float, step: float) -> Range:
     if len(places) == 0:
         raise InputError("has no cells that lie beside each other; copy the file again")
     return first + step * (float(places[0]) - 0.5), first + step * (float(places[-1]) + 0.5)
-
-
-def _since(
-    times: NDArray[np.datetime64] | None, begin: datetime | np.datetime64 | str | None
-) -> tuple[Floats, str]:
-    """Seconds of the times since the mission begins, and what they are."""
-    if times is None:
-        return np.zeros(1), "a single field, taken as steady"
-    first, last = (np.datetime_as_string(time, unit="s") for time in (times[0], times[-1]))
-    if len(times) == 1:
-        return np.zeros(1), f"a single field of {first} UTC, taken as steady"
-    start = times[0] if begin is None else _utc(begin)
-    if not times[0] <= start <= times[-1]:
-        raise InputError(
-            f"must be within the times of the file, {first} .. {last} UTC",
-            field="begin",
-            value=str(begin),
-        )
-    seconds = (times - start) / np.timedelta64(1, "s")
-    origin = np.datetime_as_string(start, unit="s")
-    note = f"{len(times)} from {first} to {last} UTC, t = 0 at {origin}"
-    return np.asarray(seconds, dtype=np.float64), note
-
-
-def _utc(moment: datetime | np.datetime64 | str) -> np.datetime64:
-    """A moment in UTC; one without a time zone is in UTC already."""
-    if isinstance(moment, str):
-        try:
-            moment = datetime.fromisoformat(moment)
-        except ValueError as error:
-            raise InputError(
-                "is no time; write 2016-01-31T12:00", field="begin", value=moment
-            ) from error
-    if isinstance(moment, datetime):
-        if moment.tzinfo is not None:
-            moment = moment.astimezone(UTC).replace(tzinfo=None)
-        return np.datetime64(moment, "ns")
-    return moment

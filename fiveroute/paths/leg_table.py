@@ -14,11 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["LegTable"]
+__all__ = ["Leg", "LegTable"]
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
+
 Leg = tuple[int, int]
+"""Tail and head: two vertices."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -40,7 +40,7 @@ from fiveroute.vehicle.unknown_obstacles import near_track
 __all__ = ["SailedLuck", "VehicleModel"]
 
 Floats = NDArray[np.float64]
-Stops = tuple[int, int]
+Arc = tuple[int, int]
 
 _CORRIDOR = 150.0
 """Metres to each side of a track within which discs are looked at, besides the sonar's reach."""
@@ -189,7 +189,7 @@ class VehicleModel:
         walk = np.repeat(np.arange(len(sailed)), [len(legs.planned) for legs in sailed])
         return replace(fit, drift=drift_of_walks(together, walk, fit.delay.value))
 
-    def _both_ways(self, ocean: TrueOcean, legs: Sequence[Stops], planned: Floats) -> SailedLegs:
+    def _both_ways(self, ocean: TrueOcean, legs: Sequence[Arc], planned: Floats) -> SailedLegs:
         """Legs sailed without and with unknown obstacles."""
         tracks = [self.track(*leg) for leg in legs]
         return sail_legs(
@@ -264,7 +264,7 @@ def _strays(positions: Floats, track: Floats, within: float) -> bool:
     return False
 
 
-def _walk(planned: Floats, rng: np.random.Generator) -> list[Stops]:
+def _walk(planned: Floats, rng: np.random.Generator) -> list[Arc]:
     """Legs that follow each other from stop to near stop, each nearer to home, and then home."""
     home, legs = len(planned) - 1, []
     tail = int(rng.integers(home))

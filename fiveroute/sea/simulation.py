@@ -41,7 +41,7 @@ from fiveroute.sea.sailed_luck import SailedLuck
 from fiveroute.sea.seeds import Purpose, generator
 from fiveroute.sea.world import World
 
-__all__ = ["PLANNERS", "simulate_fleet"]
+__all__ = ["PLANNERS", "failure_times", "simulate_fleet"]
 
 _KNOWING: dict[str, Callable[[Run, Outlook, Plan], Crew]] = {
     "ftcmp": Ftcmp,

@@ -35,7 +35,7 @@ from fiveroute.ocean.currents import Current
 from fiveroute.ocean.stated import stated_current
 from fiveroute.paths.evolved_path import THOROUGH, evolve_path
 from fiveroute.paths.leg_cache import keep_table, kept_table, table_key
-from fiveroute.paths.leg_table import LegTable
+from fiveroute.paths.leg_table import Leg, LegTable
 from fiveroute.paths.legs import track_clearance
 from fiveroute.paths.path import Path, track_path
 from fiveroute.paths.reference_path import grid_path, grid_paths
@@ -48,7 +48,6 @@ from fiveroute.paths.waters import Waters
 __all__ = ["PlannedPath", "at_sea", "plan_legs", "plan_path"]
 
 Floats = NDArray[np.float64]
-Leg = tuple[int, int]
 
 _REPORT_EVERY = 20
 """Legs between two reports of progress."""

@@ -1,5 +1,4 @@
 import dataclasses
-from datetime import UTC, datetime, timedelta, timezone
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -91,7 +90,7 @@ def test_reads_the_true_current(kind: str, sea: SimpleNamespace, tmp_path: Path)
 def test_reads_no_further_than_its_reach(kind: str, sea: SimpleNamespace, tmp_path: Path) -> None:
     path = written(FILES[kind](sea), tmp_path)
     near, far = (read_current(path, origin=(4.83, 60.79), reach=reach) for reach in (3e3, 1e5))
-    assert near.coverage().lon[0] > far.coverage().lon[0]
+    assert near.coverage.lon[0] > far.coverage.lon[0]
     x, y = np.random.default_rng(5).uniform(-1e3, 1e3, (2, 50))
     np.testing.assert_allclose(near(x, y), far(x, y), atol=1e-3)
 
@@ -125,7 +124,7 @@ def test_joins_a_globe_where_its_longitudes_begin(
     data = sea.cmems(lons, lats)
     data["uo"].values[:], data["vo"].values[:] = 0.25, 0.0
     current = read_current(written(data, tmp_path), origin=(lon, 61.0))
-    assert current.coverage().lon[0] < lon < current.coverage().lon[1]
+    assert current.coverage.lon[0] < lon < current.coverage.lon[1]
     assert current.grid.covered[10:-10, 10:-10].all()
     assert current(0.0, 0.0, 0.0)[0] == pytest.approx(0.25, abs=1e-6)
     with pytest.raises(InputError, match="give the longitude and latitude of the mission"):
@@ -184,27 +183,17 @@ def test_is_linear_in_depth_and_time(sea: SimpleNamespace, tmp_path: Path) -> No
     deeper = read_current(path, depth=5.5)
     assert deeper(100.0, 200.0, 0.0)[0] == pytest.approx(0.75 * u, rel=1e-6)
     assert read_current(path, depth=10.5)(100.0, 200.0)[0] == pytest.approx(0.5 * u, rel=1e-6)
-    assert surface.coverage().depth == (0.5, 10.5)
+    assert surface.coverage.depth == (0.5, 10.5)
     with pytest.raises(InputError, match=r"uo: depth 11 m asked, .* has 0.5 \.\. 10.5 m"):
         read_current(path, depth=11.0)
 
 
 def test_counts_time_from_the_mission_s_begin(sea: SimpleNamespace, tmp_path: Path) -> None:
     path = written(sea.cmems(LONS, LATS), tmp_path)
-    first = read_current(path)
-    for begin in (
-        "2020-03-01T03:00",
-        "2020-03-01T03:00:00Z",
-        np.datetime64("2020-03-01T03:00"),
-        datetime(2020, 3, 1, 3, tzinfo=UTC),
-        datetime(2020, 3, 1, 4, tzinfo=timezone(timedelta(hours=1))),
-    ):
-        later = read_current(path, begin=begin)
-        assert later(0.0, 0.0, 0.0)[0] == first(0.0, 0.0, 3.0 * 3600.0)[0]
+    first, later = read_current(path), read_current(path, begin="2020-03-01T03:00")
+    assert later(0.0, 0.0, 0.0)[0] == first(0.0, 0.0, 3.0 * 3600.0)[0]
     with pytest.raises(InputError, match=r"begin: .*within the times of the file, 2020-03-01T00"):
         read_current(path, begin="2021-01-01")
-    with pytest.raises(InputError, match="is no time"):
-        read_current(path, begin="tomorrow")
 
 
 def test_says_what_is_asked_and_what_there_is(sea: SimpleNamespace, tmp_path: Path) -> None:
@@ -223,7 +212,7 @@ def test_says_what_is_asked_and_what_there_is(sea: SimpleNamespace, tmp_path: Pa
 
 def test_a_turned_grid_ends_at_its_own_edge(sea: SimpleNamespace, tmp_path: Path) -> None:
     current = read_current(written(sea.norkyst(), tmp_path))
-    ranges = current.coverage()
+    ranges = current.coverage
     with pytest.raises(InputError, match="beyond the edge of the data"):
         current(ranges.x[0], ranges.y[0], 0.0)
     extended = dataclasses.replace(current, extends=True)
@@ -350,7 +339,7 @@ def test_refuses_numbers_that_no_sea_has(sea: SimpleNamespace, tmp_path: Path) -
 
 def test_clips_a_region_to_the_data(sea: SimpleNamespace, tmp_path: Path) -> None:
     current = read_current(written(sea.cmems(LONS, LATS), tmp_path))
-    (west, east), (south, _) = current.coverage().x, current.coverage().y
+    (west, east), (south, _) = current.coverage.x, current.coverage.y
     assert current.clip(Region(-1e6, -1e6, 1e6, 50.0)) == (west, south, east, 50.0)
     with pytest.raises(InputError, match=r"uo, vo: x = 20000 .. 30000 m and y = -50 .. 50 m asked"):
         current.clip(Region(2e4, -50.0, 3e4, 50.0))

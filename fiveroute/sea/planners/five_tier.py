@@ -23,7 +23,7 @@ from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.recourse import with_recourse
 from fiveroute.sea.run import Run
 
-__all__ = ["FiveTier", "ShortSighted"]
+__all__ = ["FiveTier", "ShortSighted", "first_keepers"]
 
 
 class FiveTier:
