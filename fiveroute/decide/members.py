@@ -56,7 +56,7 @@ def filed_members(instance: Instance, files: Sequence[Path], folder: Path) -> li
     first = files[0].absolute() if stated.file is None else folder / stated.file
     own = filed_current(_with(instance, replace(stated, file=str(first))))
     assert own is not None
-    times, begin = own.coverage().time, stated.begin
+    times, begin = own.coverage.time, stated.begin
     if begin is None and times is not None:
         begin = str(times[0].astype("datetime64[s]"))
     placed = replace(instance, crs=instance.crs or own.plane.proj)
