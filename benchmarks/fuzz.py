@@ -456,7 +456,7 @@ def _read_events(path: Path) -> None:
 
 def _tracks() -> tuple[bytes, ...]:
     """Tracks of the runs of `EVENTS`, as netCDF-4 and as netCDF-3."""
-    from fiveroute.experiments.track_file import trajectories
+    from fiveroute.formats.track_file import trajectories
 
     way = np.array([[0.0, 0.0, 0.0], [10.0, 8.0, 6.0]])
     data = trajectories(STILL, [(0, (way, way)), (1, (way, way[:0]))])

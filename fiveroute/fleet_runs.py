@@ -114,7 +114,7 @@ class FleetRuns:
         force
             Overwrite an existing file.
         """
-        from fiveroute.experiments.run_table import write_table
+        from fiveroute.formats.run_files import write_table
 
         write_table(self.result, Path(path), force)
 
@@ -142,7 +142,7 @@ class FleetRuns:
         force
             Overwrite an existing file.
         """
-        from fiveroute.experiments.track_file import require_tracks, write_tracks
+        from fiveroute.formats.track_file import require_tracks, write_tracks
 
         file = Path(path)
         require_tracks(file, force)
@@ -187,7 +187,7 @@ class FleetRuns:
         return tuple(replace(log, tracks=tracks[number]) for number, log in logs.items())
 
     def _log(self) -> str:
-        from fiveroute.experiments.run_table import event_lines
+        from fiveroute.formats.run_files import event_lines
 
         return event_lines(self.plan.voyage.instance, self.result)
 

@@ -177,8 +177,8 @@ class _Files:
     def check(self) -> None:
         """Refuse what could not be written, before any time is spent."""
         from fiveroute.cli.files import require_outputs
-        from fiveroute.experiments.track_file import require_tracks
         from fiveroute.formats.tables import require_table
+        from fiveroute.formats.track_file import require_tracks
 
         require_outputs(self.events, self.tracks, self.output, force=self.force)
         require_tracks(self.tracks, self.force)

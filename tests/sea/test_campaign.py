@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fiveroute.experiments.run_table import event_lines, write_table
+from fiveroute.formats.run_files import event_lines, write_table
 from fiveroute.instance import Fleet, Instance, Node, Point
 from fiveroute.limits import Limits, Progress
 from fiveroute.routes import Plan

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from fiveroute.errors import InputError
-from fiveroute.experiments.track_file import trajectories, write_tracks
 from fiveroute.formats.plan_file import PlanFile
+from fiveroute.formats.track_file import trajectories, write_tracks
 from fiveroute.view.event_log import RunLog, read_events
 from fiveroute.view.looks import load_scenes, write_look
 from fiveroute.view.scene import scene_of

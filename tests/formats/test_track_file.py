@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 from fiveroute.errors import InputError
-from fiveroute.experiments.track_file import require_tracks, trajectories, write_tracks
+from fiveroute.formats.track_file import require_tracks, trajectories, write_tracks
 from fiveroute.generate import generate
 from fiveroute.instance import Currents, Instance, Ocean
 
