@@ -11,6 +11,9 @@ const KINDS = {
 /** Seconds that an event is seen while the clock runs. */
 const LIFE = 0.9;
 
+/** Milliseconds without a movement after which the camera rests. */
+const REST = 150;
+
 const byId = (id) => document.getElementById(id);
 
 class App {
@@ -29,6 +32,8 @@ class App {
     this.isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.panes = [new Pane(this, scenes, 0, scenes[0].runs.length ? 0 : -1)];
     this.active = this.panes[0];
+    this.strip = new Strip(byId("strip"));
+    this.bars = new Bars(byId("bars"));
     this.events = new EventList(byId("events"), (event) => this.go(event));
     byId("title").textContent = [...new Set(scenes.map((scene) => scene.name))].join(" and ");
     byId("panes").append(this.panes[0].article);
@@ -246,6 +251,17 @@ class App {
     byId("speed").value = String(speed);
   }
 
+  /** The camera moves, until nothing more is heard of it for a moment. */
+  moved() {
+    this.isMoving = true;
+    clearTimeout(this.resting);
+    this.resting = setTimeout(() => {
+      this.isMoving = false;
+      this.redraw();
+    }, REST);
+    this.redraw();
+  }
+
   redraw() {
     if (this.isDue) return;
     this.isDue = true;
@@ -262,8 +278,8 @@ class App {
       pane.draw(t, this.theme, this.shows, look);
       pane.showFigures();
     }
-    if (!byId("panel-fleet").hidden) drawBars(byId("bars"), this.active, end, t, this.theme);
-    drawStrip(byId("strip"), this.panes, end, t, this.theme);
+    if (!byId("panel-fleet").hidden) this.bars.draw(this.active, end, t, this.theme);
+    this.strip.draw(this.panes, end, t, this.theme);
     byId("time").value = String(t);
     byId("time").setAttribute("aria-valuetext", clock(t));
     byId("clock").textContent = `${clock(t)} / ${clock(end)}`;
@@ -272,11 +288,12 @@ class App {
 
   /** Tables follow the clock a few times a second. */
   updateSide(isNow) {
+    const { t, isPlaying } = this.player;
     const now = performance.now();
-    if (!isNow && this.player.isPlaying && now - (this.lastUpdate || 0) < 120) return;
-    this.lastUpdate = now;
+    if (!isNow && (t === this.told || (isPlaying && now - this.toldAt < 120))) return;
+    [this.told, this.toldAt] = [t, now];
     this.tables.forEach((table) => table.update());
-    if (!byId("panel-events").hidden) this.events.at(this.player.t);
+    if (!byId("panel-events").hidden) this.events.at(t);
   }
 
   showTip(x, y, lines) {
@@ -316,12 +333,12 @@ class App {
       }[event.key];
       return () => {
         this.camera.pan(dx, dy);
-        this.redraw();
+        this.moved();
       };
     }
     const zoom = (factor) => () => {
       this.camera.zoomAt(factor, 0, 0);
-      this.redraw();
+      this.moved();
     };
     return {
       " ": () => player.toggle(),
@@ -343,64 +360,6 @@ class App {
     }[event.key.length === 1 ? event.key.toLowerCase() : event.key];
   }
 }
-
-/** What the marks mean, and what is to be seen. */
-function showKey(host, app) {
-  const { theme, shows } = app;
-  const marks = Object.entries(STATES).map(([state, name]) => {
-    const canvas = element("canvas", { class: "mark", "aria-hidden": "true" });
-    requestAnimationFrame(() => {
-      const { context } = sized(canvas);
-      const isOwned = state === "planned" || state === "collected" || state === "dropped";
-      drawNode(context, 13, 13, 8, state, isOwned ? auvColour(theme, 0) : theme.quiet, theme);
-    });
-    return element(
-      "div",
-      {},
-      element("dt", {}, canvas),
-      element("dd", {}, `${name}: ${MEANING[state]}`),
-    );
-  });
-  const fleet = app.active.scene.routes.map((_, auv) =>
-    element("div", {}, element("dt", {}, swatch(theme, auv)), element("dd", {}, `AUV ${auv + 1}`)),
-  );
-  const switches = Object.entries(SWITCHES).map(([name, words]) => {
-    const box = element("input", { type: "checkbox" });
-    box.checked = shows[name];
-    box.addEventListener("change", () => {
-      shows[name] = box.checked;
-      app.redraw();
-    });
-    return element("label", {}, box, ` ${words}`);
-  });
-  host.replaceChildren(
-    element("fieldset", {}, element("legend", {}, "Show"), ...switches),
-    element("h2", {}, "Nodes, their area grows with their data"),
-    element("dl", { class: "marks" }, ...marks),
-    element("h2", {}, "Fleet"),
-    element("dl", { class: "marks" }, ...fleet),
-    element(
-      "p",
-      {},
-      "▲ start, ★ destination. Thin: planned; bold: sailed, and in pieces where only the ends of a leg are known. Messages are lines to those who hear them, broken and crossed where they are lost. Over the slider the collected data, with marks where nodes change hands.",
-    ),
-  );
-}
-
-const SWITCHES = {
-  arrows: "arrows of the current",
-  routes: "planned routes",
-  names: "names of nodes",
-  events: "events",
-};
-
-const MEANING = {
-  planned: "an AUV means to visit it",
-  collected: "its data are aboard",
-  dropped: "its AUV had no time for it, and nobody has picked it up",
-  idle: "its AUV failed or went home without it",
-  unplanned: "on no route",
-};
 
 function start() {
   const { scenes } = JSON.parse(byId("data").textContent);

@@ -63,10 +63,12 @@ function finished(scene, label, legs, events, isRun, sailed) {
   const isKnown = (auv) => !isRun || (sailed && bytesOf(sailed[auv]).byteLength > 0);
   const guessed = legs.map((own, auv) => (isKnown(auv) ? [] : guessedLegs(scene, own)));
   const times = Float64Array.from(events, (event) => event.t);
+  const turns = Float64Array.from(changes.flat(), (change) => change.t).sort();
   const ends = tracks.map((track) => track.t[track.t.length - 1]);
   const end = Math.max(...ends, times.length ? times[times.length - 1] : 0, 0);
   const fates = scene.legs.map((_, auv) => fateOf(events, auv));
-  return { label, legs, tracks, guessed, events, times, changes, collected, end, fates, isRun };
+  const history = { events, times, changes, turns, collected };
+  return { label, legs, tracks, guessed, ...history, end, fates, isRun };
 }
 
 /** When an AUV leaves for and reaches the legs of which only the ends are known. */

@@ -1,18 +1,14 @@
 // One map: a scene, the plan or one run of it, its figures, and what the pointer does.
 
-/** Nodes beyond which a map draws only those again that change. */
-const MANY_NODES = 2000;
-
 class Pane {
   constructor(app, scenes, which, run) {
     this.app = app;
     this.scenes = scenes;
     this.t = 0;
     this.marked = { auv: -1, node: 0 };
-    this.sea = document.createElement("canvas");
-    this.seaKey = "";
-    this.nodes = new NodeLayer();
     this.canvas = element("canvas", { tabindex: 0, role: "img" });
+    this.ground = new Ground(this.canvas);
+    this.nodes = new NodeLayer();
     this.choice = element("select", {
       "aria-label": "What this map shows",
       onchange: () => this.chosen(),
@@ -27,7 +23,7 @@ class Pane {
     );
     this.fillChoice();
     this.choose(which, run);
-    this.listen();
+    new Gestures(this);
   }
 
   fillChoice() {
@@ -51,7 +47,6 @@ class Pane {
     this.scene = this.scenes[which];
     this.timeline = timelineOf(this.scene, run);
     this.choice.value = `${which} ${run}`;
-    this.seaKey = "";
     const { notes } = this.scene;
     const count = notes.length === 1 ? "1 note" : `${notes.length} notes`;
     this.notes.replaceChildren(
@@ -127,14 +122,11 @@ class Pane {
     if (!width || !height) return;
     const view = (this.view = this.app.camera.view(width, height));
     view.least = this.app.fitScale;
-    this.drawStill(view, theme, shows, width, height);
-    context.drawImage(this.sea, 0, 0, width, height);
-    drawSailed(context, view, this.timeline, theme, t);
-    // an editor moves nodes about, and a node that is wiped takes a bite out of those it touches
-    const isKept = !this.app.editor && this.scene.ids.length > MANY_NODES;
-    const key = isKept ? this.viewKey(view, theme) : "";
-    this.nodes.draw(this.canvas, key, view, this.scene, this.timeline, theme, t);
-    context.drawImage(this.nodes.canvas, 0, 0, width, height);
+    const shown = { scene: this.scene, timeline: this.timeline, theme, t, shows };
+    const isSharp = this.ground.draw(context, view, shown, this.app.isMoving);
+    this.canvas.setAttribute("aria-busy", String(!isSharp));
+    this.nodes.draw(this.canvas, view, shown, this.app.editor?.dragged >= 0);
+    overlay(context, this.nodes.canvas);
     if (shows.names) drawNames(context, view, this.scene, theme);
     drawEnds(context, view, this.scene, theme);
     if (this.marked.node) this.drawMarkedNode(context, view, theme);
@@ -147,115 +139,10 @@ class Pane {
     drawFurniture(context, view, this.scene, theme);
   }
 
-  /** All that decides where things are drawn, and in which colours. */
-  viewKey(view, theme) {
-    const { x, y, scale } = this.app.camera;
-    const { width, height } = view;
-    const shown = [theme.water, window.devicePixelRatio, this.which, this.run];
-    return [x, y, scale, width, height, ...shown].join();
-  }
-
-  /** The sea and the planned routes, drawn anew only when the view changes. */
-  drawStill(view, theme, shows, width, height) {
-    const frame = this.scene.chart ? frameAt(this.scene.chart, this.t) : 0;
-    const key = [this.viewKey(view, theme), frame, shows.arrows, shows.routes].join();
-    if (key === this.seaKey) return;
-    this.seaKey = key;
-    [this.sea.width, this.sea.height] = [this.canvas.width, this.canvas.height];
-    const context = this.sea.getContext("2d");
-    const ratio = window.devicePixelRatio || 1;
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    drawSea(context, view, this.scene, theme, this.t, shows);
-    if (shows.routes) drawPlanned(context, view, this.scene, theme, this.timeline.isRun);
-  }
-
   drawMarkedNode(context, view, theme) {
     const { node } = this.marked;
     const [x, y] = [view.sx(this.scene.points[2 * node]), view.sy(this.scene.points[2 * node + 1])];
     drawRing(context, x, y, nodeRadius(this.scene, node, view) + 5, theme.ink, 2, 1);
-  }
-
-  listen() {
-    const { canvas, app } = this;
-    const fingers = new Map();
-    let moved = 0;
-    let grip = null;
-    const spread = () => {
-      const [a, b] = [...fingers.values()];
-      return {
-        x: (a.x + b.x) / 2,
-        y: (a.y + b.y) / 2,
-        size: Math.hypot(a.x - b.x, a.y - b.y) || 1,
-      };
-    };
-    canvas.addEventListener(
-      "wheel",
-      (event) => {
-        event.preventDefault();
-        const { dx, dy } = this.fromCentre(event);
-        app.camera.zoomAt(
-          Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : event.ctrlKey ? 0.01 : 0.0016)),
-          dx,
-          dy,
-        );
-        app.redraw();
-      },
-      { passive: false },
-    );
-    canvas.addEventListener("pointerdown", (event) => {
-      canvas.setPointerCapture(event.pointerId);
-      fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
-      moved = 0;
-      grip?.drop(false);
-      grip = fingers.size === 1 && app.editor ? app.editor.grip(this, event) : null;
-      app.hideTip();
-    });
-    canvas.addEventListener("pointermove", (event) => {
-      const last = fingers.get(event.pointerId);
-      if (!last) {
-        this.hover(event);
-        return;
-      }
-      const before = fingers.size === 2 ? spread() : null;
-      const [dx, dy] = [event.clientX - last.x, event.clientY - last.y];
-      fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
-      moved += Math.hypot(dx, dy);
-      if (before) {
-        const after = spread();
-        const at = this.fromCentre({ clientX: after.x, clientY: after.y });
-        app.camera.pan(after.x - before.x, after.y - before.y);
-        app.camera.zoomAt(after.size / before.size, at.dx, at.dy);
-      } else if (grip) {
-        if (moved >= 4) grip.move(event);
-      } else if (fingers.size === 1) {
-        app.camera.pan(dx, dy);
-      }
-      app.redraw();
-    });
-    const release = (event) => {
-      if (!fingers.delete(event.pointerId)) return;
-      const isClick = event.type === "pointerup" && moved < 4;
-      grip?.drop(event.type === "pointerup" && !isClick);
-      grip = null;
-      if (isClick) this.click(event);
-    };
-    canvas.addEventListener("pointerup", release);
-    canvas.addEventListener("pointercancel", release);
-    canvas.addEventListener("pointerleave", () => app.hideTip());
-    canvas.addEventListener("focus", () => app.activate(this));
-    canvas.addEventListener("dblclick", (event) => {
-      const { dx, dy } = this.fromCentre(event);
-      app.camera.zoomAt(event.shiftKey ? 0.5 : 2, dx, dy);
-      app.redraw();
-    });
-  }
-
-  fromCentre(event) {
-    const box = this.canvas.getBoundingClientRect();
-    return {
-      dx: event.clientX - box.left - box.width / 2,
-      dy: event.clientY - box.top - box.height / 2,
-    };
   }
 
   place(event) {
@@ -313,57 +200,13 @@ class Pane {
     if (!this.view) return;
     const [px, py] = this.place(event);
     this.app.editor?.hover(this, px, py);
-    const found = this.under(px, py);
+    const { auv, node } = this.under(px, py);
     const lines =
-      found.auv >= 0
-        ? this.auvLines(found.auv)
-        : found.node
-          ? this.nodeLines(found.node)
-          : this.seaLines(px, py);
-    this.app.showTip(event.clientX, event.clientY, lines);
-  }
-
-  auvLines(auv) {
-    const { doing, node } = doingAt(this.scene, this.timeline, auv, this.t);
-    const { count, sum } = this.dataOf(auv);
-    const now = positionAt(this.timeline.tracks[auv], this.t);
-    const place = placeText(this.scene, now.x, now.y);
-    return [
-      `AUV ${auv + 1}`,
-      `${doing}${node ? ` ${this.scene.ids[node - 1]}` : ""}`,
-      `${count} nodes, ${amount(sum)} data so far`,
-      ...(place ? [place] : []),
-    ];
-  }
-
-  nodeLines(node) {
-    const { state, auv, t } = stateAt(this.timeline.changes[node - 1], this.t);
-    const { scene } = this;
-    const who = auv < 0 ? "" : `, AUV ${auv + 1}`;
-    const when = t > 0 ? ` at ${clock(t)}` : "";
-    const depth = scene.depths[node - 1];
-    const deep = depth === null ? "" : `, ${amount(depth)} m deep`;
-    const place = placeText(scene, scene.points[2 * node], scene.points[2 * node + 1]);
-    return [
-      scene.ids[node - 1],
-      `data ${amount(scene.data[node - 1])}, service ${amount(scene.service[node - 1])} s${deep}`,
-      `${STATES[state]}${who}${when}`,
-      ...(place ? [place] : []),
-    ];
-  }
-
-  seaLines(px, py) {
-    const [x, y] = [this.view.wx(px), this.view.wy(py)];
-    const { chart, metres } = this.scene;
-    const east = `${length(Math.abs(x), metres)} ${x < 0 ? "west" : "east"}`;
-    const north = `${length(Math.abs(y), metres)} ${y < 0 ? "south" : "north"}`;
-    const place = placeText(this.scene, x, y);
-    const lines = place ? [place, `${east}, ${north}`] : [`${east}, ${north}`];
-    const what = maskAt(chart, x, y);
-    const velocity = chart && !what ? velocityAt(chart, x, y, this.t) : null;
-    if (what) lines.push(what === LAND ? "land" : "no data");
-    if (velocity)
-      lines.push(`current ${Math.hypot(...velocity).toFixed(2)} m/s to ${bearing(...velocity)}`);
-    return lines;
+      auv >= 0
+        ? auvLines(this, this.dataOf(auv), auv)
+        : node
+          ? nodeLines(this, node)
+          : seaLines(this, this.view.wx(px), this.view.wy(py));
+    this.app.showTip(event.clientX, event.clientY, lines.filter(Boolean));
   }
 }
