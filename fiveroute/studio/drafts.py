@@ -12,12 +12,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 import fiveroute
 from fiveroute.formats.plan_file import PlanFile
 from fiveroute.instance import Instance
-from fiveroute.metric import distances
 from fiveroute.result import Status
+from fiveroute.view.timed_legs import leg_lengths
 
 __all__ = ["blank", "drafted"]
 
@@ -114,24 +115,26 @@ def _durations(
 ) -> tuple[float, ...]:
     """Seconds of every route, as if the water stood still."""
     vertices = {node.id: vertex for vertex, node in enumerate(instance.nodes, start=1)}
-    service = instance.service_times
+    service, points = instance.service_times, instance.points
     durations = []
     for auv, route in enumerate(routes):
         stops = [0, *(vertices[name] for name in route), len(instance.nodes) + 1]
         if paths is None:
-            legs = _still_legs(instance, stops)
+            legs = _still_legs(instance, points, stops)
         else:
             legs = [_length(path) / instance.fleet.speed for path in paths[auv]]
         durations.append(float(sum(legs) + service[stops].sum()))
     return tuple(durations)
 
 
-def _still_legs(instance: Instance, stops: Sequence[int]) -> list[float]:
+def _still_legs(
+    instance: Instance, points: NDArray[np.float64], stops: Sequence[int]
+) -> list[float]:
     """Seconds of the legs between successive stops in still water, equation (1)."""
     if instance.travel_times is not None:
         return [instance.travel_times[tail][head] for tail, head in itertools.pairwise(stops)]
-    lengths = distances(instance.metric, instance.points[stops])
-    return [float(length) / instance.fleet.speed for length in np.diagonal(lengths, 1)]
+    lengths = leg_lengths(instance.metric, points[stops])
+    return [float(length) / instance.fleet.speed for length in lengths]
 
 
 def _length(path: _Track) -> float:

@@ -15,7 +15,7 @@ from typing import Any
 from fiveroute.errors import InputError
 from fiveroute.formats import read_instance
 from fiveroute.formats.files import read_text
-from fiveroute.formats.native import instance_document, instance_hash
+from fiveroute.formats.native import instance_document
 from fiveroute.formats.plan_file import TAG, PlanFile, read_plan
 from fiveroute.instance import Fleet, Instance, Point
 from fiveroute.kernels import on_compilation
@@ -247,7 +247,7 @@ class Session:
 
 
 def _after(before: Version, instance: Instance, edit: Edit) -> Version:
-    if instance_hash(instance) == instance_hash(before.instance):
+    if replace(instance, name=before.instance.name) == before.instance:
         return Version(replace(before.filed, instance=instance), before.is_planned)
     return Version(
         drafted(before.filed, instance, kept_ids(before.instance, edit)), is_planned=False

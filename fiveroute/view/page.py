@@ -36,6 +36,7 @@ SCRIPTS = (
     "routes.js",
     "ground.js",
     "nodes.js",
+    "names.js",
     "happenings.js",
     "links.js",
     "furniture.js",

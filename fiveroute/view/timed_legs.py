@@ -18,12 +18,21 @@ from numpy.typing import NDArray
 from fiveroute.errors import InputError
 from fiveroute.formats.plan_file import PlanFile
 from fiveroute.instance import Instance
-from fiveroute.metric import distances
+from fiveroute.metric import Metric, distances
 from fiveroute.ocean.currents import Current
 from fiveroute.routes import Plan
 from fiveroute.sea.events import Event
 
-__all__ = ["Leg", "Shape", "Shapes", "planned_legs", "sailed_legs", "shapes_of", "track_of"]
+__all__ = [
+    "Leg",
+    "Shape",
+    "Shapes",
+    "leg_lengths",
+    "planned_legs",
+    "sailed_legs",
+    "shapes_of",
+    "track_of",
+]
 
 Floats = NDArray[np.float64]
 
@@ -63,6 +72,8 @@ class Shape:
 
 
 _ANYBODY = -1
+
+_BLOCK = 64  # legs that are measured at once: all distances between their ends are
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -134,11 +145,11 @@ def planned_legs(
     Their travel times are stretched together so that each route takes as long as is filed:
     where its ocean is not at hand nobody knows what each leg takes.
     """
-    service = plan.instance.service_times
+    service, points = plan.instance.service_times, plan.instance.points
     legs = []
     for auv, route in enumerate(routes.routes):
         stops = [0, *route, len(plan.instance.nodes) + 1]
-        travel = _travel_times(plan, auv, stops, current)
+        travel = _travel_times(plan, points, auv, stops, current)
         rest = max(plan.durations[auv] - float(service[stops].sum()), 0.0)
         travel *= rest / (travel.sum() or 1.0)
         legs.append(_timed(stops, travel, service))
@@ -146,19 +157,30 @@ def planned_legs(
 
 
 def _travel_times(
-    plan: PlanFile, auv: int, stops: Sequence[int], current: Current | None
+    plan: PlanFile, points: Floats, auv: int, stops: Sequence[int], current: Current | None
 ) -> Floats:
     instance, tracks = plan.instance, plan.tracks
     if tracks is not None and len(tracks[auv]) == len(stops) - 1:
         speed = instance.fleet.speed
-        return np.array([_cumulative(points, current, speed)[-1] for points in tracks[auv]])
-    pairs = list(itertools.pairwise(stops))
+        return np.array([_cumulative(path, current, speed)[-1] for path in tracks[auv]])
     if instance.travel_times is not None:
+        pairs = itertools.pairwise(stops)
         return np.array([instance.travel_times[tail][head] for tail, head in pairs])
-    points = instance.points
-    return np.array(
-        [distances(instance.metric, points[[tail, head]])[0, 1] for tail, head in pairs]
-    )
+    return leg_lengths(instance.metric, points[stops])
+
+
+def leg_lengths(metric: Metric, points: Floats) -> Floats:
+    """Distances from each point to the next.
+
+    Parameters
+    ----------
+    metric
+        How distances are measured.
+    points
+        Positions, shape (k, 2).
+    """
+    blocks = [points[k : k + _BLOCK + 1] for k in range(0, len(points) - 1, _BLOCK)]
+    return np.concatenate([np.diagonal(distances(metric, block), 1) for block in blocks])
 
 
 def _timed(stops: Sequence[int], travel: Floats, service: Floats) -> tuple[Leg, ...]:

@@ -116,7 +116,7 @@ class Caller:
 
 def wait_until(holds: Callable[[], bool]) -> None:
     """Wait until something holds."""
-    end = time.monotonic() + 120.0
+    end = time.monotonic() + 600.0
     while not holds():
         assert time.monotonic() < end, "it never came true"
         time.sleep(0.02)

@@ -467,6 +467,75 @@ def test_going_back_in_time_draws_what_was_there(
     visit.close()
 
 
+def test_a_rested_map_is_what_is_drawn_from_scratch(
+    browser: Any, plan: PlanFile, tmp_path: Path
+) -> None:
+    """Long routes move as a picture with the camera; at rest they are as if it had always been."""
+    many = 4000
+    saw = tuple((4000.0 * k / many, 300.0 * (-1) ** k) for k in range(1, many))
+    paths = ((((0.0, 0.0), *saw, (4000.0, 0.0)),), (((0.0, 0.0), (4000.0, 0.0)),))
+    visit = Visit(browser, written([scene_of(replace(plan, routes=((), ()), paths=paths))], tmp_path))
+    page = visit.page
+    visit.set_time(0.5)
+    canvas = page.locator(".pane canvas")
+    for zoom in (-40, 60):
+        # turn the wheel until a frame was drawn in between
+        canvas.evaluate(
+            """async (canvas, deltaY) => {
+              do {
+                const place = { clientX: 300, clientY: 300, cancelable: true };
+                canvas.dispatchEvent(new WheelEvent("wheel", { deltaY, ...place }));
+                await new Promise((go) => requestAnimationFrame(go));
+              } while (canvas.getAttribute("aria-busy") !== "true");
+            }""",
+            zoom,
+        )
+        playwright.expect(canvas).to_have_attribute("aria-busy", "false")
+        rested = visit.pixels()
+        page.keyboard.press("d")
+        assert visit.pixels() != rested
+        page.keyboard.press("d")
+        assert visit.pixels() == rested
+    visit.close()
+
+
+def test_paper_is_light_and_shows_the_map_whole(
+    browser: Any, scene: Scene, tmp_path: Path
+) -> None:
+    visit = Visit(browser, written([scene], tmp_path), color_scheme="dark")
+    page = visit.page
+    page.evaluate("() => dispatchEvent(new Event('beforeprint'))")
+    assert page.get_attribute("html", "data-theme") == "light"
+    page.emulate_media(media="print")
+    assert not page.is_visible(".transport")
+    shape = "(canvas) => [canvas.clientWidth / canvas.clientHeight, canvas.width / canvas.height]"
+    shown, drawn = page.locator(".pane canvas").evaluate(shape)
+    assert shown == pytest.approx(drawn, rel=0.01)
+    page.emulate_media(media="screen")
+    page.evaluate("() => dispatchEvent(new Event('afterprint'))")
+    assert page.get_attribute("html", "data-theme") == "dark"
+    visit.close()
+
+
+def test_a_phone_shows_nothing_cut_off(browser: Any, scene: Scene, tmp_path: Path) -> None:
+    visit = Visit(browser, written([scene], tmp_path))
+    visit.page.set_viewport_size({"width": 390, "height": 844})
+    visit.settle()
+    wide = """() => [...document.querySelectorAll("body *")]
+      .filter((one) => one.getBoundingClientRect().right > 391 && !one.closest("[role=tabpanel] *"))
+      .map((one) => one.id || one.className || one.tagName)"""
+    assert visit.page.evaluate(wide) == []
+    controls = "#play, #before, #after, #clock, #speed"
+    tops = visit.page.locator(controls).evaluate_all(
+        """(all) => all.map((one) => {
+          const { top, bottom } = one.getBoundingClientRect();
+          return (top + bottom) / 2;
+        })"""
+    )
+    assert max(tops) - min(tops) < 5
+    visit.close()
+
+
 def test_policy_stops_markup_that_gets_in(browser: Any, scene: Scene, tmp_path: Path) -> None:
     """Even if a text became markup, its script would not run."""
     visit = Visit(browser, written([scene], tmp_path))

@@ -249,3 +249,34 @@ def test_auvs_of_one_colour_differ_in_their_dashes() -> None:
       return Array.from({ length: 28 }, (_, auv) => auvColour(theme, auv) + auvDash(theme, auv));
     """
     assert len(set(evaluate(body))) == 28
+
+
+def test_names_hide_no_node_where_there_is_room_and_never_each_other() -> None:
+    body = """
+      const at = (x, y, text) => ({ x, y, radius: 5, text, width: 20 });
+      const free = placedNames([at(0, 0, "a"), at(20, 0, "b"), at(200, 0, "c")], [[220, 0]]);
+      const crowd = Array.from({ length: 40 }, (_, k) => at(3 * k, 0, `${k}`));
+      const boxes = placedNames(crowd, []).map(([, box]) => box);
+      const over = boxes.filter((one) => boxes.some((other) => one !== other && isOver(one, other)));
+      return [free.map(([text, [left, top]]) => [text, left, top]), boxes.length, over.length];
+    """
+    free, shown, hidden = evaluate(body)
+    assert free == [["a", -28, -6], ["b", 28, -6], ["c", 172, -6]]
+    assert 5 < shown < 40
+    assert hidden == 0
+
+
+def test_stamps_are_laid_over_what_is_there() -> None:
+    """A half transparent pixel mixes, an opaque one covers; beyond the rim nothing happens."""
+    body = """
+      const bytes = (pixels) => [...new Uint8Array(Uint32Array.from(pixels).buffer)];
+      const [red, grey] = [0xff0000ff, 0x80c86432];
+      const picture = { width: 3, height: 2, pixels: new Uint32Array(6) };
+      const square = { size: 3, pixels: new Uint32Array(9).fill(red) };
+      stamp(picture, square, 0, 2);
+      stamp(picture, { size: 1, pixels: Uint32Array.of(0x80000000) }, 0, 1);
+      return [bytes(picture.pixels), bytes([blended(grey, grey), blended(grey, 0xff000000)])];
+    """
+    pixels, mixed = evaluate(body)
+    assert pixels == [0] * 12 + [127, 0, 0, 255, 255, 0, 0, 255, 0, 0, 0, 0]
+    assert mixed == [50, 100, 200, 192, 25, 50, 100, 255]

@@ -71,6 +71,8 @@ class App {
     this.wireTabs();
     this.wireFilters();
     document.addEventListener("keydown", (event) => this.pressed(event));
+    addEventListener("beforeprint", () => this.print(true));
+    addEventListener("afterprint", () => this.print(false));
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) =>
       this.setTheme(event.matches),
     );
@@ -242,6 +244,14 @@ class App {
     byId("theme").setAttribute("aria-label", isDark ? "Light colours" : "Dark colours");
     this.fillSide();
     this.redraw();
+  }
+
+  /** Paper is light. */
+  print(isBegun) {
+    if (isBegun) this.wasDark = this.isDark;
+    if (!this.wasDark) return;
+    this.setTheme(!isBegun);
+    this.draw();
   }
 
   showState() {

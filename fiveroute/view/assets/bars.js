@@ -28,7 +28,7 @@ class Bars {
     overlay(context, this.layer.canvas);
     context.restore();
     timeline.fates.forEach((fate, auv) => drawLimits(context, scene, fate, auv, x, theme));
-    drawScale(context, [x(0), width - 8], height - 4, latest, theme);
+    drawScale(context, [x(0), width - 8], rows + 18, latest, theme);
     context.fillStyle = theme.ink;
     context.fillRect(x(t) - 0.75, 0, 1.5, rows);
   }

@@ -12,6 +12,7 @@ function sized(canvas, { clientWidth: width, clientHeight: height } = canvas) {
 
 /** Lay one canvas over another of its size, pixel on pixel. */
 function overlay(context, canvas) {
+  if (!canvas.width || !canvas.height) return;
   context.save();
   context.resetTransform();
   context.drawImage(canvas, 0, 0);

@@ -1,4 +1,4 @@
-// Nodes on the map: what has become of each, and its name.
+// Nodes on the map: what has become of each.
 
 /** Pixels of the screen between the sizes that nodes are drawn in. */
 const SIZE_STEP = 0.5;
@@ -141,29 +141,3 @@ function blended(over, under) {
   };
   return (((whole + 0.5) << 24) | mixed(16) | mixed(8) | mixed(0)) >>> 0;
 }
-
-/** Names of the nodes in sight, if they are few; none over another. */
-function drawNames(context, view, scene, theme) {
-  const inSight = [];
-  for (let node = 1; node <= scene.ids.length; node += 1) {
-    const [x, y] = [view.sx(scene.points[2 * node]), view.sy(scene.points[2 * node + 1])];
-    if (x > 0 && y > 0 && x < view.width && y < view.height) inSight.push([x, y, node]);
-    if (inSight.length > 120) return;
-  }
-  context.font = "11px system-ui, sans-serif";
-  context.textAlign = "left";
-  context.textBaseline = "middle";
-  const taken = [];
-  for (const [x, y, node] of inSight) {
-    const text = scene.ids[node - 1].slice(0, 24);
-    const left = x + nodeRadius(scene, node, view) + 3;
-    const box = [left, y - 6, left + context.measureText(text).width, y + 6];
-    if (
-      taken.some((one) => box[0] < one[2] && one[0] < box[2] && box[1] < one[3] && one[1] < box[3])
-    )
-      continue;
-    taken.push(box);
-    haloedText(context, text, left, y, theme.quiet, theme.halo);
-  }
-}
-
