@@ -474,7 +474,9 @@ def test_a_rested_map_is_what_is_drawn_from_scratch(
     many = 4000
     saw = tuple((4000.0 * k / many, 300.0 * (-1) ** k) for k in range(1, many))
     paths = ((((0.0, 0.0), *saw, (4000.0, 0.0)),), (((0.0, 0.0), (4000.0, 0.0)),))
-    visit = Visit(browser, written([scene_of(replace(plan, routes=((), ()), paths=paths))], tmp_path))
+    visit = Visit(
+        browser, written([scene_of(replace(plan, routes=((), ()), paths=paths))], tmp_path)
+    )
     page = visit.page
     visit.set_time(0.5)
     canvas = page.locator(".pane canvas")
@@ -499,9 +501,7 @@ def test_a_rested_map_is_what_is_drawn_from_scratch(
     visit.close()
 
 
-def test_paper_is_light_and_shows_the_map_whole(
-    browser: Any, scene: Scene, tmp_path: Path
-) -> None:
+def test_paper_is_light_and_shows_the_map_whole(browser: Any, scene: Scene, tmp_path: Path) -> None:
     visit = Visit(browser, written([scene], tmp_path), color_scheme="dark")
     page = visit.page
     page.evaluate("() => dispatchEvent(new Event('beforeprint'))")

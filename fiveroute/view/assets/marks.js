@@ -97,37 +97,35 @@ function drawEnds(context, view, scene, theme) {
   }
 }
 
+/** AUVs that are not home yet, each with its number where that hides no other's. */
 function drawAuvs(context, view, timeline, theme, t, marked) {
+  const numbers = [];
   timeline.tracks.forEach((track, auv) => {
+    const { kind, t: end } = timeline.fates[auv];
+    const isOver = t >= end;
+    if (isOver && kind === "arrive") return;
     const now = positionAt(track, t);
     const [x, y] = [view.sx(now.x), view.sy(now.y)];
-    const fate = timeline.fates[auv];
-    const isOver = t >= fate.t;
-    if (isOver && fate.kind === "arrive") return;
-    if (marked === auv) drawRing(context, x, y, 17, theme.ink, 2, 1);
-    context.strokeStyle = theme.halo;
-    context.lineWidth = 5;
-    context.lineJoin = "round";
     const angle = Math.atan2(-now.v, now.u);
-    context.fillStyle = auvColour(theme, auv);
-    drawHead(context, x, y, angle, 9);
-    context.stroke();
-    context.fill();
-    context.strokeStyle = theme.ink;
-    context.lineWidth = 1.3;
-    context.stroke();
+    if (marked === auv) drawRing(context, x, y, 17, theme.ink, 2, 1);
+    drawAuv(context, x, y, angle, auvColour(theme, auv), theme);
     if (isOver) drawCross(context, x, y, 11, theme.alarm);
-    context.font = "600 12px system-ui, sans-serif";
-    context.textAlign = "center";
-    context.textBaseline = "middle";
-    haloedText(
-      context,
-      String(auv + 1),
-      x - 15 * Math.cos(angle),
-      y - 15 * Math.sin(angle),
-      theme.ink,
-      theme.halo,
-    );
+    const place = [x - 15 * Math.cos(angle), y - 15 * Math.sin(angle)];
+    if (numbers.some(([px, py]) => Math.hypot(place[0] - px, place[1] - py) < 13)) return;
+    numbers.push(place);
+    label(context, String(auv + 1), ...place, theme, 1);
   });
 }
 
+function drawAuv(context, x, y, angle, colour, theme) {
+  context.lineJoin = "round";
+  context.strokeStyle = theme.halo;
+  context.lineWidth = 5;
+  context.fillStyle = colour;
+  drawHead(context, x, y, angle, 9);
+  context.stroke();
+  context.fill();
+  context.strokeStyle = theme.ink;
+  context.lineWidth = 1.3;
+  context.stroke();
+}
