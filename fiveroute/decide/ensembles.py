@@ -209,14 +209,19 @@ def ensemble_sweep(voyage: Voyage, planned: EnsemblePlan) -> Sweep:
 
 
 def _wanted(voyage: Voyage, training: Floats) -> dict[str, Floats]:
-    """Leg times to plan with, by name."""
+    """Different leg times to plan with, by name."""
     instance = voyage.instance
     planned = instance.travel if voyage.travel is None else voyage.travel
     quantiles = {
         f"the {100 * q:.0f} % quantile": np.quantile(training, q, axis=0, method="higher")
         for q in _QUANTILES
     }
-    return {"the planned times": planned, "the mean": training.mean(axis=0), **quantiles}
+    wanted = {"the planned times": planned, "the mean": training.mean(axis=0), **quantiles}
+    distinct: dict[str, Floats] = {}  # few members have few quantiles
+    for name, times in wanted.items():
+        if not any(np.array_equal(times, other) for other in distinct.values()):
+            distinct[name] = times
+    return distinct
 
 
 def recourse_completion(problem: TeamOrienteering, plan: Plan, travel: Floats) -> float:

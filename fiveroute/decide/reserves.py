@@ -67,7 +67,7 @@ def sweep_reserves(
         routes = departure_plan(world, planner, reserve=reserve, seed=seed, limits=limits)
         how = {"planner": planner, "reserve": reserve, "seed": seed}
         campaign = Campaign(world, routes, runs, how)
-        result = sail_campaign(campaign, workers=workers, limits=limits)
+        result = sail_campaign(campaign, workers=workers, limits=spent.rest())
         theta = np.array([run.completion for run in result.runs])
         late = sum(run.late_returns for run in result.runs)
         return {

@@ -125,7 +125,8 @@ def vary(
     row
         The further columns of a value.
     clock
-        When to stop; one row is worked out in any case.
+        When to stop; one row is worked out in any case. One that is interrupted is kept only
+        where there is no other.
     progress
         Told what is at work.
     """
@@ -137,7 +138,10 @@ def vary(
             message = f"{quantity.replace('_', ' ')} {value:g} ({done + 1} of {len(values)})"
             progress(Progress(clock.seconds, message=message))
         limits = clock.limits.within(clock.left / (len(values) - done))
-        rows.append({quantity: value, **row(value, limits)})
+        found = row(value, limits)
+        if rows and clock.interrupted:  # cut short: to compare it would mislead
+            break
+        rows.append({quantity: value, **found})
     return Sweep(instance, quantity, unit, tuple(rows), left_out=tuple(values[len(rows) :]))
 
 

@@ -75,6 +75,13 @@ def test_the_choice_is_the_best_of_the_training_members(mission: Instance) -> No
     sweep_figure(sweep)
 
 
+def test_the_same_times_are_planned_for_once(mission: Instance) -> None:
+    times = [mission.travel, 1.2 * mission.travel, mission.travel]
+    planned = plan_against_ensemble(Voyage.straight(mission), times, 1)
+    names = {candidate.name for candidate in planned.candidates}
+    assert names == {"the planned times", "the mean", "the 50 % quantile"}
+
+
 def test_half_of_the_members_are_held_out() -> None:
     assert [held_out_of(count) for count in (2, 3, 30)] == [1, 1, 15]
     assert held_out_of(30, 10) == 10

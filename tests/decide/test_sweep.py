@@ -39,6 +39,19 @@ def test_an_interruption_leaves_what_is_done() -> None:
     assert sweep.left_out == (2.0, 3.0)
 
 
+def test_a_row_that_is_cut_short_is_left_out() -> None:
+    limits = Limits()
+
+    def interrupted(value: float, given: Limits) -> Row:
+        if value == 2.0:
+            limits.interrupt.set()
+        return row(value, given)
+
+    sweep = vary("sea", "speed", "", [1.0, 2.0, 3.0], interrupted, clock=limits.start())
+    assert [r["speed"] for r in sweep.rows] == [1.0]
+    assert sweep.left_out == (2.0, 3.0)
+
+
 def test_missing_figures_are_no_best() -> None:
     assert Sweep("sea", "speed", "", ({"speed": 1.0, "gap": None},)).best("gap") is None
 

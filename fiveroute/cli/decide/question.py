@@ -140,7 +140,7 @@ class _Answer:
         )
         self._write(outcome.value)
         self._print(outcome.value)
-        note_left_out(outcome.value)
+        note_left_out(outcome.value, interrupted=outcome.interrupted)
         ctx.exit(130 if outcome.interrupted else 0)
 
     def _check(self) -> None:

@@ -41,12 +41,15 @@ def print_sweep(sweep: Sweep) -> None:
         tell(sweep.because)
 
 
-def note_left_out(sweep: Sweep) -> None:
+def note_left_out(sweep: Sweep, *, interrupted: bool) -> None:
     """Say which values there was no time for."""
     from fiveroute.decide.sweep import heading
 
     if sweep.left_out:
         values = ", ".join(f"{value:g}" for value in sweep.left_out)
+        told = f"{heading(sweep.quantity)} {values}"
         note(
-            f"there was no time for {heading(sweep.quantity)} {values}; give more with --time-limit"
+            f"interrupted before the end of {told}"
+            if interrupted
+            else f"there was no time for {told}; give more with --time-limit"
         )
