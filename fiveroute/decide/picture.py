@@ -45,6 +45,7 @@ def sweep_figure(sweep: Sweep) -> Figure:
     places = [float(k) if words else float(value or 0) for k, value in enumerate(values)]
     for name, label, colour in _LINES:
         if name in sweep.rows[0]:
+            label = "mean of runs" if "runs" in sweep.rows[0] else label
             style = "o" if words else "o-"
             axis.plot(places, _column(sweep, name), style, color=colour, label=label)
     if "bound_rate" in sweep.rows[0]:
