@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import re
 from numbers import Integral
-from typing import Annotated
+from typing import Annotated, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +36,7 @@ __all__ = [
     "Currents",
     "Fleet",
     "Instance",
+    "Many",
     "Node",
     "Ocean",
     "Point",
@@ -51,6 +52,11 @@ MAX_FLEET = 10_000
 
 TURNING_RADIUS = 10.0
 """Least radius in metres of a turn of a torpedo-shaped AUV two metres long."""
+
+T = TypeVar("T")
+
+Many = Annotated[tuple[T, ...], Field(fail_fast=True)]
+"""Any number of them, up to the first that is wrong: ten million faults would fill the memory."""
 
 _STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
 
@@ -96,7 +102,7 @@ def _endurance_kind(value: object) -> str:
 
 _Endurance = Annotated[
     Annotated[PositiveFloat, Tag("all")]
-    | Annotated[tuple[PositiveFloat, ...], Field(min_length=1, max_length=MAX_FLEET), Tag("each")],
+    | Annotated[Many[PositiveFloat], Field(min_length=1, max_length=MAX_FLEET), Tag("each")],
     Discriminator(_endurance_kind),
 ]
 
@@ -177,7 +183,7 @@ class Currents:
         When the mission begins, UTC, as 2016-01-31T12:00; None takes the file's first time.
     """
 
-    vortices: tuple[Vortex, ...] = ()
+    vortices: Many[Vortex] = ()
     uniform: Uniform | None = None
     file: Annotated[str, Field(min_length=1)] | None = None
     depth: NonNegativeFloat = 0.0
@@ -197,7 +203,7 @@ class Circle:
 class Polygon:
     """A polygon, its corners (x, y) in metres in either sense of rotation."""
 
-    polygon: Annotated[tuple[tuple[float, float], ...], Field(min_length=3)]
+    polygon: Annotated[Many[tuple[float, float]], Field(min_length=3)]
 
 
 def _obstacle_kind(value: object) -> str:
@@ -224,8 +230,8 @@ class Ocean:
     """
 
     currents: Currents = Currents()
-    obstacles: tuple[_Obstacle, ...] = ()
-    land: tuple[Polygon, ...] = ()
+    obstacles: Many[_Obstacle] = ()
+    land: Many[Polygon] = ()
     margin: NonNegativeFloat = 0.0
 
 
@@ -292,7 +298,7 @@ class Instance:
     """
 
     name: str
-    nodes: Annotated[tuple[Node, ...], AfterValidator(_unique_ids)]
+    nodes: Annotated[Many[Node], AfterValidator(_unique_ids)]
     start: Point
     destination: Point
     fleet: Fleet
@@ -301,7 +307,7 @@ class Instance:
     uncertainty: Uncertainty = Uncertainty()
     crs: str | None = None
     metric: Metric = "euclidean"
-    travel_times: tuple[tuple[NonNegativeFloat, ...], ...] | None = None
+    travel_times: Many[Many[NonNegativeFloat]] | None = None
 
     def __post_init__(self) -> None:
         if self.crs is not None and self.origin is None:

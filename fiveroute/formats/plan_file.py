@@ -29,7 +29,7 @@ from fiveroute.formats.native import (
     instance_hash,
     relocated,
 )
-from fiveroute.instance import Instance
+from fiveroute.instance import Instance, Many
 from fiveroute.problem import TeamOrienteering
 from fiveroute.result import Result, Status
 from fiveroute.routes import Plan
@@ -43,7 +43,7 @@ TAG = "fiveroute-plan/1"
 
 _STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
 
-_Path = Annotated[tuple[tuple[float, float], ...], Field(min_length=2)]
+_Path = Annotated[Many[tuple[float, float]], Field(min_length=2)]
 
 
 @dataclass(frozen=True, slots=True, config=_STRICT)
@@ -74,15 +74,15 @@ class PlanFile:
     """
 
     instance: Instance
-    routes: tuple[tuple[str, ...], ...]
-    durations: tuple[NonNegativeFloat, ...]
+    routes: Many[Many[str]]
+    durations: Many[NonNegativeFloat]
     objective: NonNegativeFloat
     status: Annotated[Status, Field(strict=False)]
     bound: float | None
     method: str
     seed: int | None
     version: str
-    paths: tuple[tuple[_Path, ...], ...] | None = None
+    paths: Many[Many[_Path]] | None = None
     currents_hash: str | None = None
 
     def __post_init__(self) -> None:

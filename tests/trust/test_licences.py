@@ -14,6 +14,13 @@ PAGE = ROOT / "docs" / "licences.md"
 EXTRAS = ("cluster", "parquet", "peers")
 
 _SAID = ("License-Expression", "License")
+_BOUND = re.compile(
+    r"lib(cholmod|fftw3|fribidi|glpk|gmp|gsl|mpc|mpfr|quadmath|readline|umfpack)(?=\W)"
+)
+_KNOWN = {
+    *(("numpy", "libquadmath"), ("scipy", "libquadmath")),
+    *(("pyvroom", "libglpk"), ("pyvroom", "libgmp")),
+}
 _COPYLEFT = re.compile(r"\b[AL]?GPL|General Public License|\bSSPL|\bEUPL", re.IGNORECASE)
 
 
@@ -73,6 +80,20 @@ def test_no_distribution_is_copyleft_and_all_are_listed(extra: str) -> None:
         name: licence(one) for name, one in found.items() if _COPYLEFT.search(licence(one))
     } == {}
     assert {name: text for name, text in known.items() if _COPYLEFT.search(text)} == {}
+
+
+def bound_libraries(found: Distribution) -> set[tuple[str, str]]:
+    """Compiled libraries under the GPL or LGPL among the files of a distribution."""
+    names = (_BOUND.match(file.name) for file in found.files or ())
+    return {(plain(found.metadata["Name"]), name[0]) for name in names if name}
+
+
+@pytest.mark.parametrize("extra", ["", *EXTRAS])
+def test_libraries_inside_of_wheels_are_known(extra: str) -> None:
+    """A wheel whose own code is free may bring what is not; the page names all that do."""
+    inside = set[tuple[str, str]]().union(*map(bound_libraries, closure(project()[extra])))
+    assert inside <= _KNOWN
+    assert all(library in PAGE.read_text(encoding="utf-8") for _, library in inside)
 
 
 def test_the_walk_knows_copyleft() -> None:

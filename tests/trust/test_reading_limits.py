@@ -41,6 +41,21 @@ def test_nesting_has_an_end(read: object, text: str) -> None:
         read(text)
 
 
+@pytest.mark.parametrize("key", ["nodes", "travel_times"])
+def test_faults_are_not_gathered_without_end(key: str) -> None:
+    """Ten million faults would fill the memory, and end the process in pydantic's midst."""
+    text = (
+        '{"format": "fiveroute-instance/1", "name": "a", "nodes": [], "start": {"x": 0, "y": 0}, '
+        '"destination": {"x": 1, "y": 0}, "fleet": {"size": 1, "speed": 1, "endurance": 9}'
+    )
+    many = "[" + "{}," * 100_000 + "{}]"
+    text = text.replace("[]", many) + "}" if key == "nodes" else f'{text}, "{key}": {many}}}'
+    with pytest.raises(InputError) as refused:
+        native.read(text, "name")
+    assert f"{key}[0]" in str(refused.value)
+    assert "00" not in str(refused.value).partition("faults after this one")[2]
+
+
 BOMB = '<!DOCTYPE kml [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;&a;&a;&a;">]><kml>&b;</kml>'
 OUTSIDE = '<!DOCTYPE kml [<!ENTITY a SYSTEM "file:///etc/passwd">]><kml>&a;</kml>'
 
