@@ -64,6 +64,7 @@ def sweep_reserves(
     world = World.of(voyage.instance, size, travel=voyage.travel, out_of_reach=voyage.out_of_reach)
 
     def row(reserve: float, limits: Limits) -> Row:
+        spent = limits.start()
         routes = departure_plan(world, planner, reserve=reserve, seed=seed, limits=limits)
         how = {"planner": planner, "reserve": reserve, "seed": seed}
         campaign = Campaign(world, routes, runs, how)
