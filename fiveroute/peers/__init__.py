@@ -34,10 +34,13 @@ class Peer:
         Ours, with ``plan(problem, limits, seed) -> Plan | None``.
     package
         Theirs, as it is installed.
+    extra
+        What of ours brings it; empty if it always comes with us.
     """
 
     module: str
     package: str
+    extra: str = ""
 
     @property
     def version(self) -> str:
@@ -48,8 +51,8 @@ class Peer:
 PEERS: Mapping[str, Peer] = MappingProxyType(
     {
         "ortools": Peer("fiveroute.peers.ortools", "ortools"),
-        "pyvrp": Peer("fiveroute.peers.pyvrp", "pyvrp"),
-        "vroom": Peer("fiveroute.peers.vroom", "pyvroom"),
+        "pyvrp": Peer("fiveroute.peers.pyvrp", "pyvrp", "peers"),
+        "vroom": Peer("fiveroute.peers.vroom", "pyvroom", "vroom"),
     }
 )
 """Peers by name."""
@@ -133,9 +136,10 @@ def require_peers(names: Iterable[str], time_limit: float) -> None:
             raise InputError(f"no such peer; choose {', '.join(PEERS)}", field="peer", value=name)
         if not math.isfinite(time_limit):
             raise InputError("a peer needs a time limit; state one", field="peer", value=name)
+        peer = PEERS[name]
         try:
-            import_module(PEERS[name].module)
+            import_module(peer.module)
         except ImportError:
             raise MissingExtraError(
-                f"peer: {name!r}: needs {PEERS[name].package}; install fiveroute[peers]"
+                f"peer: {name!r}: needs {peer.package}; install fiveroute[{peer.extra}]"
             ) from None

@@ -35,7 +35,7 @@ def installed(name: str) -> str:
     try:
         importlib.metadata.version(PEERS[name].package)
     except importlib.metadata.PackageNotFoundError:
-        pytest.skip(f"{PEERS[name].package} is not installed: fiveroute[peers]")
+        pytest.skip(f"{PEERS[name].package} is not installed: fiveroute[{PEERS[name].extra}]")
     return name
 
 

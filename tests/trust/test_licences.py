@@ -11,7 +11,7 @@ from packaging.requirements import Requirement
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "licences.md"
-EXTRAS = ("cluster", "parquet", "peers")
+EXTRAS = ("cluster", "parquet", "peers", "vroom")
 
 _SAID = ("License-Expression", "License")
 _BOUND = re.compile(
