@@ -258,8 +258,8 @@ def test_names_hide_no_node_where_there_is_room_and_never_each_other() -> None:
       const crowd = Array.from({ length: 40 }, (_, k) => at(3 * k, 0, `${k}`));
       const boxes = placedNames(crowd, []).map(([, box]) => box);
       const isHidden = (one) => boxes.some((other) => one !== other && isOver(one, other));
-      const spots = free.map(([text, [left, top]]) => [text, left, top]);
-      return [spots, boxes.length, boxes.some(isHidden)];
+      const places = free.map(([text, [left, top]]) => [text, left, top]);
+      return [places, boxes.length, boxes.some(isHidden)];
     """
     free, shown, hidden = evaluate(body)
     assert free == [["a", -28, -6], ["b", 28, -6], ["c", 172, -6]]

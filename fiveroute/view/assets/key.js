@@ -1,6 +1,5 @@
 // The key: what the marks mean, and what is to be seen.
 
-/** What the marks mean, and what is to be seen. */
 function showKey(host, app) {
   const { theme, shows } = app;
   const marks = Object.entries(STATES).map(([state, name]) => {

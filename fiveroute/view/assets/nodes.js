@@ -32,7 +32,7 @@ function drawNode(context, x, y, radius, state, colour, theme) {
     context.stroke();
   } else if (state === "idle") {
     context.beginPath();
-    context.arc(x, y, radius - 1, Math.PI / 4, (5 * Math.PI) / 4);
+    context.arc(x, y, Math.max(radius - 1, 0), Math.PI / 4, (5 * Math.PI) / 4);
     context.fillStyle = theme.quiet;
     context.fill();
   }
