@@ -109,7 +109,7 @@ def _in_time(time: Floats, limit: Floats) -> bool:
 @kernel
 def _note_best(stops: Ints, total: float, best: Ints, score: Floats) -> None:
     """Keep the routes where they collect more than the best, or as much in less time."""
-    margin = 1e-9 * (1.0 + abs(score[BEST_PROFIT]))
+    margin = 1e-9 * max(score[PROFIT], score[BEST_PROFIT])
     more = score[PROFIT] > score[BEST_PROFIT] + margin
     as_much = score[PROFIT] > score[BEST_PROFIT] - margin
     if more or (as_much and total < score[BEST_TIME] * (1.0 - 1e-9)):

@@ -71,6 +71,7 @@ def _descend(
     chosen: Ints,
 ) -> float:
     """Let AUV after AUV take its best route until none changes; returns the worth of all."""
+    rounding = 1e-9 * profit.sum()
     unchanged, auv = 0, 0
     while unchanged < len(chosen):
         before = chosen[auv]
@@ -79,7 +80,7 @@ def _descend(
         for route in range(len(time)):
             if time[route] <= limit[auv]:
                 worth = _worth(first, nodes, time, profit, price, count, route)
-                if worth > most + 1e-9 * (1.0 + abs(most)):
+                if worth > most + rounding:
                     best, most = route, worth
         _add(first, nodes, count, best, 1)
         chosen[auv] = best

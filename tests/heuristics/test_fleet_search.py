@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -83,6 +85,19 @@ def test_same_seed_same_plan() -> None:
         fleet_search(problem, rng=np.random.default_rng(3), iterations=2_000) for _ in range(2)
     )
     assert first == second
+
+
+@pytest.mark.parametrize("exponent", [-60, 40])
+@pytest.mark.parametrize("seed", [3, 4, 5])
+def test_the_unit_of_data_does_not_change_the_plan(seed: int, exponent: int) -> None:
+    """A power of two loses no bit."""
+    problem = random_problem(seed, most=40)
+    other = replace(problem, profit=problem.profit * 2.0**exponent)
+    plans = [
+        fleet_search(each, rng=np.random.default_rng(7), iterations=3_000)
+        for each in (problem, other)
+    ]
+    assert plans[0] == plans[1]
 
 
 @pytest.mark.parametrize("workers", [1, 2, 3, 8])
