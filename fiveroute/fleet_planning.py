@@ -125,8 +125,9 @@ def plan(
         If the options contradict each other, a stop lies on land, or no fleet size is stated
         and none can be estimated.
     """
-    from fiveroute.mission import plan_mission
+    from fiveroute.mission import plan_mission, require_options
 
+    require_options(search, bound, allocation, samples, quantile, seed, workers)
     clock = Limits.of(limits).start()
     voyage = sail(
         instance,

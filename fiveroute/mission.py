@@ -31,7 +31,7 @@ from fiveroute.tiers.effort import effort_for
 from fiveroute.tiers.preplanning import Allocation, allocations, preplan
 from fiveroute.tiers.routing import Routing, best_routing
 
-__all__ = ["Bounding", "MissionPlan", "Search", "plan_mission"]
+__all__ = ["Bounding", "MissionPlan", "Search", "plan_mission", "require_options"]
 
 Search = Literal["fleet", "paper"]
 """``paper``: Algorithm 1; ``fleet``: Algorithm 1, then a search over the whole fleet."""
@@ -146,13 +146,7 @@ def plan_mission(
         If there is no such option, the options contradict each other, or no fleet size is stated
         and none can be estimated.
     """
-    _require_known(search=search, allocation=allocation, bound=bound)
-    _require_whole(workers, "workers", least=1)
-    _require_whole(seed, "seed", least=0)
-    if samples and search != "paper":
-        raise InputError("samples are for the search 'paper' only", field="search", value=search)
-    if quantile is not None and not samples:
-        raise InputError("a quantile needs samples; set their number as well", field="quantile")
+    require_options(search, bound, allocation, samples, quantile, seed, workers)
     steps = _Steps((limits or Limits()).start(), _END_OF_PLAN[bound], progress)
     for_tours, for_starts, for_routes, for_fleet = np.random.default_rng(seed).spawn(4)
 
@@ -207,7 +201,16 @@ def plan_mission(
     )
 
 
-def _require_known(search: str, allocation: str, bound: str) -> None:
+def require_options(
+    search: str,
+    bound: str,
+    allocation: str,
+    samples: int,
+    quantile: float | None,
+    seed: int,
+    workers: int,
+) -> None:
+    """Refuse options of `plan_mission` that do not exist or contradict each other."""
     for field, value, names in (
         ("search", search, get_args(Search)),
         ("allocation", allocation, get_args(Allocation)),
@@ -215,6 +218,12 @@ def _require_known(search: str, allocation: str, bound: str) -> None:
     ):
         if value not in names:
             raise InputError(f"take one of {', '.join(names)}", field=field, value=value)
+    _require_whole(workers, "workers", least=1)
+    _require_whole(seed, "seed", least=0)
+    if samples and search != "paper":
+        raise InputError("samples are for the search 'paper' only", field="search", value=search)
+    if quantile is not None and not samples:
+        raise InputError("a quantile needs samples; set their number as well", field="quantile")
 
 
 def _require_whole(number: int, field: str, least: int) -> None:

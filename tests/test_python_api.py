@@ -231,3 +231,12 @@ def test_a_proof_for_straight_lines_does_not_hold_in_a_current() -> None:
     assert straight.bound is not None
     assert fr.simulate(instance, straight, runs=1, straight_lines=True).plan.bound is not None
     assert fr.simulate(instance, straight, runs=1).plan.bound is None
+
+
+def test_wrong_options_are_refused_before_the_legs_are_planned() -> None:
+    instance = generate("paper", nodes=40, seed=5)
+    wrong: Any = "nonsense"
+    told: list[fr.Progress] = []
+    with pytest.raises(fr.InputError, match="search: 'nonsense': take one of"):
+        fr.plan(instance, search=wrong, progress=told.append)
+    assert told == []
