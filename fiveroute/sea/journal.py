@@ -10,11 +10,13 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from fiveroute.errors import InputError
 from fiveroute.sea.events import Event, Frame
 from fiveroute.sea.run_result import RunResult
 
@@ -45,14 +47,24 @@ class Journal:
     def add(self, runs: Iterable[RunResult]) -> None:
         """Keep runs; they are on the disk when this returns."""
         lines = (json.dumps(_document(run), default=_plain) for run in runs)
-        with self.path.open("a", encoding="utf-8") as stream:
+        with self._named(), self.path.open("a", encoding="utf-8") as stream:
             stream.write("".join(f"\n{line}\n" for line in lines))  # after half a line as well
             stream.flush()
             os.fsync(stream.fileno())
 
     def remove(self) -> None:
         """Throw the journal away."""
-        self.path.unlink(missing_ok=True)
+        with self._named():
+            self.path.unlink(missing_ok=True)
+
+    @contextmanager
+    def _named(self) -> Iterator[None]:
+        """Say which file it is that the disk does not take."""
+        try:
+            yield
+        except OSError as error:
+            told = f"cannot be written ({error.strerror}); check the disk"
+            raise InputError(told, file=self.path) from None
 
 
 def _document(run: RunResult) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from fiveroute.errors import InputError
 from fiveroute.generate import generate
 from fiveroute.routes import Plan
 from fiveroute.sea.campaign import Campaign, sail_campaign
@@ -81,3 +82,10 @@ def test_a_campaign_that_is_killed_loses_no_finished_run(tmp_path: Path) -> None
     assert resumed.runs == sail_campaign(campaign()).runs
     lines = [line for line in journal.path.read_text().splitlines() if line]
     assert len(lines) == 12, "no finished run was sailed again"
+
+
+def test_a_disk_that_takes_nothing_is_named(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"full: cannot be written \(No space left"):
+        Journal(Path("/dev/full")).add(some_runs()[:1])
+    with pytest.raises(InputError, match="cannot be written"):
+        Journal(tmp_path).remove()
