@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,8 +27,7 @@ from fiveroute.sea.courses.course import Course, time_in_hand
 from fiveroute.sea.courses.discarding import discard
 from fiveroute.sea.courses.exact_replanning import EXACT, best_courses
 from fiveroute.sea.courses.outlook import Outlook
-from fiveroute.sea.courses.replanning import detour
-from fiveroute.sea.courses.stops import Ints, Stops, insert_stop, remove_stops
+from fiveroute.sea.courses.stops import Ints, Stops, insert_stop
 
 __all__ = ["TRIALS", "replan_fleet"]
 
@@ -39,25 +37,6 @@ TRIALS = 100
 _LONGEST = 6  # nodes taken out of one course at once, at most
 _BLINK = 0.02  # probability that a place is overlooked
 _WARM, _COLD = 0.05, 0.001  # temperatures, as shares of the mean data of a node
-
-
-class _Fleet(NamedTuple):
-    """The courses of a fleet, as kernels have them.
-
-    Parameters
-    ----------
-    stops
-        Stops of every AUV, with room for all nodes, shape (M, any).
-    lengths
-        How many of them count, shape (M,).
-    left, spread
-        Seconds left at every anchor, and the variance of that in s^2, shape (M,).
-    """
-
-    stops: Ints
-    lengths: Ints
-    left: NDArray[np.float64]
-    spread: NDArray[np.float64]
 
 
 def replan_fleet(
@@ -84,120 +63,147 @@ def replan_fleet(
         return tuple(course.route for course in fitting)
     if len(pool) <= EXACT:
         return best_courses(view, courses, pool)
-    fleet = _Fleet(
-        np.zeros((len(courses), len(pool) + 3), np.int64),
-        np.array([len(course.route) + 2 for course in fitting]),
-        np.array([course.left for course in courses]),
-        np.array([course.spread for course in courses]),
-    )
-    for stops, length, course in zip(fleet.stops, fleet.lengths, fitting, strict=True):
+    fleet = np.zeros((len(courses), len(pool) + 3), np.int64)
+    lengths = np.array([len(course.route) + 2 for course in fitting])
+    for stops, length, course in zip(fleet, lengths, fitting, strict=True):
         stops[:length] = course.anchor, *course.route, view.destination
-    _improve(view, fleet, pool, trials * len(pool), np.array([seed], dtype=np.uint64))
+    left = np.array([course.left for course in courses])
+    spread = np.array([course.spread for course in courses])
+    state = np.array([seed], dtype=np.uint64)
+    _improve(view, fleet, lengths, left, spread, pool, trials * len(pool), state)
     return tuple(
-        tuple(stops[1 : length - 1].tolist())
-        for stops, length in zip(fleet.stops, fleet.lengths, strict=True)
+        tuple(stops[1 : length - 1].tolist()) for stops, length in zip(fleet, lengths, strict=True)
     )
 
 
 @kernel
-def _improve(view: Outlook, best: _Fleet, pool: Ints, trials: int, state: RandomState) -> None:
-    """Improve a fleet in place."""
-    now, trial = _copy(best), _copy(best)
-    most, spare = _worth(view, best)
+def _improve(
+    view: Outlook,
+    best: Ints,
+    best_lengths: Ints,
+    left: NDArray[np.float64],
+    spread: NDArray[np.float64],
+    pool: Ints,
+    trials: int,
+    state: RandomState,
+) -> None:
+    """Improve a fleet in place; its arrays come one by one, as a tuple of them takes 7 % longer."""
+    now, lengths = best.copy(), best_lengths.copy()
+    trial, trial_lengths = best.copy(), best_lengths.copy()
+    most, spare = _worth(view, best, best_lengths, left, spread)
     data = most
     warm = _WARM * view.profit[pool].mean()
     cooling = (_COLD / _WARM) ** (1.0 / trials)
     for _ in range(trials):
-        trial.stops[:], trial.lengths[:] = now.stops, now.lengths
-        _ruin(view, trial, pool, state)
-        _recreate(view, trial, pool, state)
-        found, hand = _worth(view, trial)
+        trial[:], trial_lengths[:] = now, lengths
+        _ruin(view, trial, trial_lengths, pool, state)
+        _recreate(view, trial, trial_lengths, left, spread, pool, state)
+        found, hand = _worth(view, trial, trial_lengths, left, spread)
         if found > most + 1e-9 or (found > most - 1e-9 and hand > spare + 1e-6):
-            best.stops[:], best.lengths[:], most, spare = trial.stops, trial.lengths, found, hand
+            best[:], best_lengths[:], most, spare = trial, trial_lengths, found, hand
         if found > data + warm * math.log(1.0 - uniform(state)):
-            now.stops[:], now.lengths[:], data = trial.stops, trial.lengths, found
+            now[:], lengths[:], data = trial, trial_lengths, found
         warm *= cooling
 
 
 @kernel
-def _copy(fleet: _Fleet) -> _Fleet:
-    """The same courses in arrays of their own."""
-    return _Fleet(fleet.stops.copy(), fleet.lengths.copy(), fleet.left, fleet.spread)
-
-
-@kernel
-def _worth(view: Outlook, fleet: _Fleet) -> tuple[float, float]:
+def _worth(
+    view: Outlook,
+    fleet: Ints,
+    lengths: Ints,
+    left: NDArray[np.float64],
+    spread: NDArray[np.float64],
+) -> tuple[float, float]:
     """Data collected by a fleet, and its time in hand, all AUVs together."""
     data, hand = 0.0, 0.0
-    for m in range(len(fleet.stops)):
-        stops, length = fleet.stops[m], fleet.lengths[m]
-        for at in range(1, length - 1):
-            data += view.profit[stops[at]]
-        hand += time_in_hand(view, stops, length, fleet.left[m], fleet.spread[m])
+    for m in range(len(fleet)):
+        for at in range(1, lengths[m] - 1):
+            data += view.profit[fleet[m, at]]
+        hand += time_in_hand(view, fleet[m], lengths[m], left[m], spread[m])
     return data, hand
 
 
 @kernel
-def _ruin(view: Outlook, fleet: _Fleet, pool: Ints, state: RandomState) -> None:
+def _ruin(view: Outlook, fleet: Ints, lengths: Ints, pool: Ints, state: RandomState) -> None:
     """Take a string of nodes out of one or more courses, each where it passes a random node."""
     centre = pool[below(state, len(pool))]
-    for _ in range(1 + below(state, len(fleet.stops))):
-        m = below(state, len(fleet.stops))
-        stops, inner = fleet.stops[m], fleet.lengths[m] - 2
+    for _ in range(1 + below(state, len(fleet))):
+        m = below(state, len(fleet))
+        inner = lengths[m] - 2
         if inner == 0:
             continue
         count = 1 + below(state, min(_LONGEST, inner))
         nearest, least = 1, np.inf
         for at in range(1, inner + 1):
-            distance = view.legs[stops[at], centre]
+            distance = view.legs[fleet[m, at], centre]
             if distance < least:
                 nearest, least = at, distance
         first = min(max(nearest - below(state, count), 1), inner + 1 - count)
-        fleet.lengths[m] = remove_stops(stops, inner + 2, first, count)
+        for at in range(first, lengths[m] - count):
+            fleet[m, at] = fleet[m, at + count]
+        lengths[m] -= count
 
 
 @kernel
-def _recreate(view: Outlook, fleet: _Fleet, pool: Ints, state: RandomState) -> None:
+def _recreate(
+    view: Outlook,
+    fleet: Ints,
+    lengths: Ints,
+    left: NDArray[np.float64],
+    spread: NDArray[np.float64],
+    pool: Ints,
+    state: RandomState,
+) -> None:
     """Put idle nodes in, the rich or simply any first, each where it costs least."""
     is_on = np.zeros(len(view.profit), np.bool_)
-    for m in range(len(fleet.stops)):
-        for at in range(1, fleet.lengths[m] - 1):
-            is_on[fleet.stops[m, at]] = True
+    for m in range(len(fleet)):
+        for at in range(1, lengths[m] - 1):
+            is_on[fleet[m, at]] = True
     by_data = uniform(state)
     urgency = np.empty(len(pool))
     for k in range(len(pool)):
         urgency[k] = -by_data * view.profit[pool[k]] + (1.0 - by_data) * uniform(state)
     for k in np.argsort(urgency):
         if not is_on[pool[k]]:
-            _insert(view, fleet, pool[k], state)
+            _insert(view, fleet, lengths, left, spread, pool[k], state)
 
 
 @kernel
-def _insert(view: Outlook, fleet: _Fleet, node: int, state: RandomState) -> None:
+def _insert(
+    view: Outlook,
+    fleet: Ints,
+    lengths: Ints,
+    left: NDArray[np.float64],
+    spread: NDArray[np.float64],
+    node: int,
+    state: RandomState,
+) -> None:
     """Insert a node where it adds least time to an AUV that has it; nowhere, if none has."""
     chosen, place, least = -1, 0, np.inf
-    for m in range(len(fleet.stops)):
-        stops, length = fleet.stops[m], fleet.lengths[m]
-        extra, at = _cheapest_seen(view, stops, length, node, state)
+    for m in range(len(fleet)):
+        stops, length = fleet[m], lengths[m]
+        at, extra = _cheapest(view, stops, length, node, state)
         if extra >= least:
             continue
         insert_stop(stops, length, at, node)
-        if time_in_hand(view, stops, length + 1, fleet.left[m], fleet.spread[m]) >= 0.0:
+        if time_in_hand(view, stops, length + 1, left[m], spread[m]) >= 0.0:
             chosen, place, least = m, at, extra
-        remove_stops(stops, length + 1, at, 1)
+        for k in range(at, length):
+            stops[k] = stops[k + 1]
     if chosen >= 0:
-        stops, length = fleet.stops[chosen], fleet.lengths[chosen]
-        fleet.lengths[chosen] = insert_stop(stops, length, place, node)
+        insert_stop(fleet[chosen], lengths[chosen], place, node)
+        lengths[chosen] += 1
 
 
 @kernel
-def _cheapest_seen(
+def _cheapest(
     view: Outlook, stops: Stops, length: int, node: int, state: RandomState
-) -> tuple[float, int]:
-    """As `cheapest_place`, but that places are overlooked now and then."""
-    least, place = np.inf, 1
+) -> tuple[int, float]:
+    """As `replanning.cheapest_place`, place first, but that places are overlooked now and then."""
+    place, least = 1, np.inf
     for at in range(1, length):
-        extra = detour(view, stops[at - 1], node, stops[at])
+        before, after = stops[at - 1], stops[at]
+        extra = view.legs[before, node] + view.legs[node, after] - view.legs[before, after]
         if extra < least and uniform(state) >= _BLINK:
-            least, place = extra, at
-    return least, place
+            place, least = at, extra
+    return place, least
