@@ -25,7 +25,7 @@ from fiveroute.sea.courses.discarding import discard
 from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.stops import Ints, Stops, insert_stop, remove_stops
 
-__all__ = ["TRIALS", "cheapest_place", "detour", "replan"]
+__all__ = ["TRIALS", "cheapest_place", "replan"]
 
 TRIALS = 100
 """Attempts to improve a course at a node; more do not help."""
@@ -164,13 +164,13 @@ def cheapest_place(view: Outlook, stops: Stops, length: int, node: int) -> tuple
     """Least added time of inserting a node, and the position to insert it at."""
     least, place = np.inf, 1
     for at in range(1, length):
-        extra = detour(view, stops[at - 1], node, stops[at])
+        extra = _detour(view, stops[at - 1], node, stops[at])
         if extra < least:
             least, place = extra, at
     return least, place
 
 
 @kernel
-def detour(view: Outlook, before: int, node: int, after: int) -> float:
+def _detour(view: Outlook, before: int, node: int, after: int) -> float:
     """Time in seconds that a node adds between two stops."""
     return float(view.legs[before, node] + view.legs[node, after] - view.legs[before, after])
