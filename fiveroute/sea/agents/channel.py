@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.errors import InputError
-from fiveroute.sea.agents.messages import HEADER_BITS, WORD_BITS, Message
+from fiveroute.sea.agents.messages import Message
 from fiveroute.sea.events import Frame
 from fiveroute.sea.run import Run, Vessel
 
@@ -121,6 +121,8 @@ class Radio:
         Draws losses and delays.
     hear
         Called with time, AUV and message when an AUV hears something.
+    longest
+        Bits of the longest frame that may be sent; a turn is long enough for it.
     sent, delivered
         Frames sent, and frames heard by those whom they were for.
     """
@@ -130,6 +132,7 @@ class Radio:
     points: NDArray[np.float64]
     rng: np.random.Generator
     hear: Callable[[float, int, Message], None]
+    longest: int
     sent: int = 0
     delivered: int = 0
     slot: float = field(init=False)
@@ -138,10 +141,9 @@ class Radio:
     _bad_links: set[tuple[int, int]] = field(default_factory=set)
 
     def __post_init__(self) -> None:
-        n, fleet = self.run.problem.n, self.run.problem.fleet_size
+        fleet, channel = self.run.problem.fleet_size, self.channel
         across = float(np.hypot(*np.ptp(self.points, axis=0)))
-        longest = HEADER_BITS + WORD_BITS * (n + 1)  # a call or bid for all nodes
-        self.slot = longest / self.channel.bit_rate + min(across, self.channel.reach) / SOUND_SPEED
+        self.slot = self.longest / channel.bit_rate + min(across, channel.reach) / SOUND_SPEED
         self._next_turn = [auv * self.slot for auv in range(fleet)]
         self._waiting = [deque() for _ in range(fleet)]
 
@@ -175,6 +177,7 @@ class Radio:
             self._waiting[auv].clear()
             return
         bits = message.bits(self.run.problem.n)
+        assert bits <= self.longest, f"{message.says} of {bits} bits in a turn for {self.longest}"
         frame = Frame(self.sent, auv, message.receiver, message.says, bits)
         self.sent += 1
         self.run.note(t, auv, "send", frame=frame)

@@ -19,7 +19,7 @@ from typing import Literal
 
 from fiveroute.sea.agents.messages import HEADER_BITS, WORD_BITS, Message
 
-__all__ = ["COLLECTED", "HELD", "NOBODY", "Beliefs", "View"]
+__all__ = ["COLLECTED", "HELD", "NOBODY", "Beliefs", "View", "longest_view"]
 
 NOBODY = -1
 """The winner of a node that nobody has."""
@@ -55,6 +55,11 @@ class View(Message):
         """A winner (8) and the kind of bid (2) a node, a word a true bid, and a word an AUV."""
         told = sum(0.0 < bid < HELD for bid in self.bids)
         return HEADER_BITS + 10 * n + WORD_BITS * (told + len(self.stamps))
+
+
+def longest_view(n: int, fleet_size: int) -> int:
+    """Bits of a view with a true bid for each of n nodes."""
+    return HEADER_BITS + 10 * n + WORD_BITS * (n + fleet_size)
 
 
 @dataclass(slots=True)

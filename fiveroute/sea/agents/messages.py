@@ -33,6 +33,7 @@ __all__ = [
     "Report",
     "Void",
     "Wish",
+    "longest_frame",
 ]
 
 HEADER_BITS = 36
@@ -187,3 +188,8 @@ class Reply(Message):
     def bits(self, n: int) -> int:
         """An AUV and a bitmap."""
         return HEADER_BITS + 8 + n
+
+
+def longest_frame(n: int) -> int:
+    """Bits of the longest of these in a mission of n nodes: a call or a bid for all of them."""
+    return HEADER_BITS + WORD_BITS * (n + 1)

@@ -31,7 +31,14 @@ from numpy.typing import NDArray
 from fiveroute.routes import Plan
 from fiveroute.sea.agents.bundle import Bundle
 from fiveroute.sea.agents.channel import Channel, Radio
-from fiveroute.sea.agents.consensus import COLLECTED, HELD, NOBODY, Beliefs, View
+from fiveroute.sea.agents.consensus import (
+    COLLECTED,
+    HELD,
+    NOBODY,
+    Beliefs,
+    View,
+    longest_view,
+)
 from fiveroute.sea.agents.messages import Message
 from fiveroute.sea.agents.teammates import BEAT, SILENCE
 from fiveroute.sea.courses.course import Course
@@ -76,7 +83,8 @@ class Cbba:
         rng: np.random.Generator,
         silence: float = SILENCE,
     ) -> None:
-        self.radio = Radio(run, channel, points, rng, self._hear)
+        longest = longest_view(run.problem.n, len(plan.routes))
+        self.radio = Radio(run, channel, points, rng, self._hear, longest)
         self.agents = [
             _Agent(auv, run, self.radio, view, plan, silence) for auv in range(len(plan.routes))
         ]

@@ -17,7 +17,7 @@ from fiveroute.routes import Plan
 from fiveroute.sea.agents.agent import Agent
 from fiveroute.sea.agents.channel import Channel, Radio
 from fiveroute.sea.agents.holdings import Holdings
-from fiveroute.sea.agents.messages import Message
+from fiveroute.sea.agents.messages import Message, longest_frame
 from fiveroute.sea.agents.teammates import SILENCE
 from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.recourse import with_recourse
@@ -62,7 +62,7 @@ class FiveTier:
         silence: float = SILENCE,
     ) -> None:
         self._run = run
-        self.radio = Radio(run, channel, points, rng, self._hear)
+        self.radio = Radio(run, channel, points, rng, self._hear, longest_frame(run.problem.n))
         self.takeovers = self.false_takeovers = 0
         keepers = first_keepers(run.problem, plan)
         books = [

@@ -8,7 +8,15 @@ import pytest
 
 from fiveroute.errors import InputError
 from fiveroute.sea.agents.channel import PRESETS, SOUND_SPEED, Bursts, Channel, Radio
-from fiveroute.sea.agents.messages import Accept, Bid, Call, Message, Report, Wish
+from fiveroute.sea.agents.messages import (
+    Accept,
+    Bid,
+    Call,
+    Message,
+    Report,
+    Wish,
+    longest_frame,
+)
 from fiveroute.sea.events import Frame, arrivals_of
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.run import Run
@@ -41,7 +49,8 @@ class Stay:
 def fleet(world: World, channel: Channel, ears: Ears, size: int = 3) -> tuple[Run, Radio]:
     problem = world.problem.with_budgets([18_000.0] * size)
     run = Run(problem, Luck(world.law, 1, 0), (math.inf,) * size)
-    return run, Radio(run, channel, world.points, np.random.default_rng(3), ears)
+    rng, longest = np.random.default_rng(3), longest_frame(problem.n)
+    return run, Radio(run, channel, world.points, rng, ears, longest)
 
 
 def test_a_message_takes_its_bits_and_the_way_of_sound(world: World) -> None:

@@ -2,7 +2,7 @@
 
 import pytest
 
-from fiveroute.sea.agents.consensus import COLLECTED, HELD, NOBODY, Beliefs, View
+from fiveroute.sea.agents.consensus import COLLECTED, HELD, NOBODY, Beliefs, View, longest_view
 
 ME, SENDER, THIRD, FOURTH = 1, 0, 2, 3
 OLD, NEW = 10.0, 20.0
@@ -98,3 +98,13 @@ def test_a_message_that_has_been_overtaken_is_ignored() -> None:
 def test_a_frame_states_its_bits() -> None:
     view = View(0, None, (NOBODY, 0, 1, NOBODY), (0.0, HELD, 0.5, 0.0), (1.0, 2.0))
     assert view.bits(2) == 36 + 20 + 16 + 32
+
+
+def test_no_view_is_longer_than_one_of_true_bids() -> None:
+    n, fleet = 7, 3
+    winners, stamps = (0,) * (n + 2), (NEW,) * fleet
+    lengths = [
+        View(ME, None, winners, (0.0, *(bid,) * n, 0.0), stamps).bits(n)
+        for bid in (0.0, 0.5, HELD, COLLECTED)
+    ]
+    assert max(lengths) == lengths[1] == longest_view(n, fleet)

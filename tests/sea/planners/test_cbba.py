@@ -2,6 +2,7 @@
 
 import math
 from collections import Counter
+from itertools import pairwise
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from fiveroute.sea.agents.channel import Channel
 from fiveroute.sea.agents.consensus import COLLECTED
 from fiveroute.sea.agents.teammates import SILENCE
 from fiveroute.sea.courses.outlook import Outlook
+from fiveroute.sea.events import arrivals_of
 from fiveroute.sea.luck import Luck
 from fiveroute.sea.planners.cbba import Cbba
 from fiveroute.sea.run import Run
@@ -18,7 +20,9 @@ from fiveroute.sea.simulation import failure_times, simulate_fleet
 from fiveroute.sea.world import World
 
 
-def random_mission(seed: int, loss: float = 0.0, failures: float = 0.0) -> tuple[Run, Cbba]:
+def random_mission(
+    seed: int, loss: float = 0.0, failures: float = 0.0, bit_rate: float = math.inf
+) -> tuple[Run, Cbba]:
     """A random small mission, sailed to its end."""
     rng = np.random.default_rng(seed)
     n, fleet = int(rng.integers(4, 20)), int(rng.integers(1, 6))
@@ -32,7 +36,7 @@ def random_mission(seed: int, loss: float = 0.0, failures: float = 0.0) -> tuple
         run,
         Outlook.of(problem, world.law, 1.645),
         plan,
-        channel=Channel(loss=loss),
+        channel=Channel(loss=loss, bit_rate=bit_rate),
         points=world.points,
         rng=rng,
         silence=SILENCE if failures else math.inf,
@@ -43,6 +47,16 @@ def random_mission(seed: int, loss: float = 0.0, failures: float = 0.0) -> tuple
 
 def collections(run: Run) -> Counter[int]:
     return Counter(e.node for e in run.log if e.kind == "collect" and e.node is not None)
+
+
+def test_nobody_speaks_before_all_have_heard_what_was_said() -> None:
+    """A turn is long enough for all that an AUV believes, at 80 bits a second."""
+    for seed in range(30):
+        run, _ = random_mission(seed, bit_rate=80.0)
+        said = sorted((e.t, e.frame.number) for e in run.log if e.kind == "send" and e.frame)
+        heard = arrivals_of(run.log)
+        for (_, number), (then, _) in pairwise(said):
+            assert max(heard.get(number, {}).values(), default=0.0) <= then + 1e-6
 
 
 def test_over_a_perfect_channel_nothing_is_collected_twice_and_all_agree() -> None:
