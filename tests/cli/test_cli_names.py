@@ -28,7 +28,7 @@ def test_names_are_no_markup(
     if command != "decide":
         assert "[/i]$x_{$" in answer.out
         assert "a ]0;b   c " in answer.out
-    assert (answer.out.replace("\n", "") + answer.err).isprintable()
+    assert (answer.out + answer.err).replace("\n", "").isprintable()
 
 
 def test_notes_are_one_line(capsys: pytest.CaptureFixture[str]) -> None:
