@@ -17,6 +17,7 @@ from fiveroute.errors import InputError
 from fiveroute.formats.files import numbered_lines, read_text
 from fiveroute.formats.json_document import translated
 from fiveroute.formats.plan_file import PlanFile
+from fiveroute.instance import Many
 from fiveroute.sea.events import Event, Frame, Kind
 
 __all__ = ["RunLog", "read_events", "run_logs"]
@@ -58,7 +59,7 @@ class _Message:
     sender: _Whole
     receiver: _Whole | None
     bits: _Whole
-    heard: tuple[_Heard, ...] = ()
+    heard: Many[_Heard] = ()
 
 
 @validated(frozen=True, slots=True, config=ConfigDict(extra="forbid", strict=True))
