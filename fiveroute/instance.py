@@ -383,6 +383,11 @@ class Instance:
             return np.divide(matrix, self.fleet.speed, out=matrix)
 
     @property
+    def lengths_km(self) -> NDArray[np.float64]:
+        """Lengths of straight legs in kilometres, for the mean number of manoeuvres in (12)."""
+        return self.travel * (self.fleet.speed / 1000.0)
+
+    @property
     def service_times(self) -> NDArray[np.float64]:
         """Service times in seconds, shape (n + 2,), zero at both ends."""
         return _at_nodes(

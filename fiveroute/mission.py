@@ -280,8 +280,7 @@ def _sampled(
             field="samples",
             value=samples,
         )
-    lengths_km = instance.travel * (instance.fleet.speed / 1000.0)
-    legs = sample_legs(travel, lengths_km, instance.uncertainty, samples, rng)
+    legs = sample_legs(travel, instance.lengths_km, instance.uncertainty, samples, rng)
     return SampledLegs(legs, RouteStatistic(quantile))
 
 

@@ -77,7 +77,7 @@ class World:
             Data of nodes of the mission that the instance does not name.
         """
         problem = instance.problem(fleet_size, travel)
-        lengths_km = instance.travel * (instance.fleet.speed / 1000.0)
+        lengths_km = instance.lengths_km
         law = leg_law(problem.travel, lengths_km, uncertainty or uncertainty_of(instance))
         return cls(problem, law, instance.points, lengths_km, out_of_reach=out_of_reach)
 
