@@ -20,6 +20,7 @@ from fiveroute.sea.run_result import RunResult, SimulationResult
 from fiveroute.words import printable
 
 if TYPE_CHECKING:
+    from fiveroute.formats.plan_file import PlanFile
     from fiveroute.sea.world import World
     from fiveroute.view.event_log import RunLog
 
@@ -173,14 +174,15 @@ class FleetRuns:
         from fiveroute.view.looks import show_look
         from fiveroute.view.scene import scene_of
 
-        scene = scene_of(self.plan.filed(), folder, runs=self._played())
+        filed = self.plan.filed()
+        scene = scene_of(filed, folder, runs=self._played(filed))
         return show_look([scene], path, run=run, force=force)
 
-    def _played(self) -> tuple[RunLog, ...]:
+    def _played(self, filed: PlanFile) -> tuple[RunLog, ...]:
         """The runs as a page plays them."""
         from fiveroute.view.event_log import run_logs
 
-        logs = {log.run: log for log in run_logs(self._log(), self.plan.filed())}
+        logs = {log.run: log for log in run_logs(self._log(), filed)}
         tracks = {
             run.run: tuple(track[:, [1, 2, 0]] for track in self.tracks(run)) for run in self.runs
         }

@@ -30,6 +30,7 @@ from fiveroute.result import Result, Status
 if TYPE_CHECKING:
     from fiveroute.formats.plan_file import PlanFile
     from fiveroute.paths.voyage import Voyage
+    from fiveroute.problem import TeamOrienteering
     from fiveroute.routes import Plan
 
 __all__ = ["Actuation", "prepare", "simulate"]
@@ -118,13 +119,14 @@ def prepare(
         routes = departure_plan(
             world.by_law, rehearsing, reserve=reserve, seed=seed, limits=clock.rest()
         )
-        given = _rehearsed(voyage, routes, clock.seconds, seed)
+        given = _rehearsed(voyage, world.problem, routes, clock.seconds, seed)
     return Pier(given, world)
 
 
-def _rehearsed(voyage: Voyage, routes: Plan, seconds: float, seed: int) -> FleetPlan:
+def _rehearsed(
+    voyage: Voyage, problem: TeamOrienteering, routes: Plan, seconds: float, seed: int
+) -> FleetPlan:
     """Routes that did best in rehearsals; where nobody gets home in time they break (6)."""
-    problem = voyage.instance.problem(len(routes.routes), voyage.travel)
     collected = routes.objective(problem)
     result = Result("rehearsals", Status.FEASIBLE, routes, collected, None, seconds, seed)
     return FleetPlan.of(voyage, problem, result)
