@@ -27,7 +27,7 @@ from fiveroute.sea.courses.course import Course, time_in_hand
 from fiveroute.sea.courses.discarding import discard
 from fiveroute.sea.courses.exact_replanning import EXACT, best_courses
 from fiveroute.sea.courses.outlook import Outlook
-from fiveroute.sea.courses.stops import Ints, Stops, insert_stop
+from fiveroute.sea.courses.stops import Ints, Stops, insert_stop, remove_stops
 
 __all__ = ["TRIALS", "replan_fleet"]
 
@@ -139,9 +139,7 @@ def _ruin(view: Outlook, fleet: Ints, lengths: Ints, pool: Ints, state: RandomSt
             if distance < least:
                 nearest, least = at, distance
         first = min(max(nearest - below(state, count), 1), inner + 1 - count)
-        for at in range(first, lengths[m] - count):
-            fleet[m, at] = fleet[m, at + count]
-        lengths[m] -= count
+        lengths[m] = remove_stops(fleet[m], lengths[m], first, count)
 
 
 @kernel
@@ -188,11 +186,9 @@ def _insert(
         insert_stop(stops, length, at, node)
         if time_in_hand(view, stops, length + 1, left[m], spread[m]) >= 0.0:
             chosen, place, least = m, at, extra
-        for k in range(at, length):
-            stops[k] = stops[k + 1]
+        remove_stops(stops, length + 1, at, 1)
     if chosen >= 0:
-        insert_stop(fleet[chosen], lengths[chosen], place, node)
-        lengths[chosen] += 1
+        lengths[chosen] = insert_stop(fleet[chosen], lengths[chosen], place, node)
 
 
 @kernel
