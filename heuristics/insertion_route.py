@@ -11,9 +11,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from fiveroute.heuristics.route_kernels import cheapest_place, shift_in, shorten
+from fiveroute.heuristics.route_kernels import cheapest_place, shorten
 from fiveroute.problem import TeamOrienteering
 from fiveroute.routes import Route
+from fiveroute.stops import insert_stop
 
 __all__ = ["insertion_route", "various_routes"]
 
@@ -38,7 +39,7 @@ def insertion_route(problem: TeamOrienteering, nodes: Sequence[int]) -> Route:
     stops = np.full(len(vertices), len(nodes) + 1)
     stops[0] = 0
     for node in range(1, len(nodes) + 1):
-        shift_in(stops, node + 1, cheapest_place(legs, stops, node + 1, node)[1], node)
+        insert_stop(stops, node + 1, cheapest_place(legs, stops, node + 1, node)[1], node)
     if len(nodes) <= _LONGEST_SHORTENED:
         shorten(legs, stops, len(stops))
     return tuple(vertices[stops[1:-1]].tolist())

@@ -23,16 +23,14 @@ from numpy.typing import NDArray
 
 from fiveroute.heuristics.route_kernels import (
     Case,
-    Stops,
     cheapest_place,
     duration,
     in_time,
-    remove,
-    shift_in,
     shorten,
 )
 from fiveroute.kernels import kernel
 from fiveroute.randomness import RandomState, uniform
+from fiveroute.stops import Stops, insert_stop, remove_stops
 
 __all__ = ["cheapest_places", "rebirth"]
 
@@ -94,7 +92,7 @@ def _shed(case: Case, stops: Stops, length: int, noise: float, state: RandomStat
                 worst = at
         if worst == 0:
             break
-        length = remove(stops, length, worst, 1)
+        length = remove_stops(stops, length, worst, 1)
     return length
 
 
@@ -133,9 +131,9 @@ def _grow(case: Case, stops: Stops, length: int, noise: float, state: RandomStat
         if node == 0:
             return length
         at = place[node]
-        length = shift_in(stops, length, at, node)
+        length = insert_stop(stops, length, at, node)
         if case.needed > 0 and not in_time(case, stops, length):
-            length = remove(stops, length, at, 1)
+            length = remove_stops(stops, length, at, 1)
             gain[node] = -1.0
             continue
         slack -= extra[node]
@@ -203,8 +201,8 @@ def _exchange(case: Case, stops: Stops, length: int) -> bool:
         node, to = _substitute(case, stops, at, slack, extra, place)
         if node == 0:
             continue
-        remove(stops, length, at, 1)
-        shift_in(stops, length - 1, to if to <= at else to - 1, node)
+        remove_stops(stops, length, at, 1)
+        insert_stop(stops, length - 1, to if to <= at else to - 1, node)
         if case.needed == 0 or in_time(case, stops, length):
             return True
         stops[:] = old

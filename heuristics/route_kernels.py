@@ -15,20 +15,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.kernels import kernel
+from fiveroute.stops import Stops
 
 __all__ = [
     "Case",
-    "Stops",
     "cheapest_place",
     "collected",
     "duration",
     "in_time",
-    "remove",
-    "shift_in",
     "shorten",
 ]
-
-Stops = NDArray[np.int64]
 
 
 class Case(NamedTuple):
@@ -98,23 +94,6 @@ def cheapest_place(
             least = extra
             place = at
     return least, place
-
-
-@kernel
-def shift_in(stops: Stops, length: int, at: int, node: int) -> int:
-    """Put a node at a position of the route; returns the new length."""
-    for i in range(length, at, -1):
-        stops[i] = stops[i - 1]
-    stops[at] = node
-    return length + 1
-
-
-@kernel
-def remove(stops: Stops, length: int, at: int, count: int) -> int:
-    """Take `count` stops from position `at` on out of the route; returns the new length."""
-    for i in range(at, length - count):
-        stops[i] = stops[i + count]
-    return length - count
 
 
 @kernel

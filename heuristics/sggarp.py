@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fiveroute.heuristics.rebirth import rebirth
-from fiveroute.heuristics.route_kernels import Case, Stops, collected, duration, in_time
+from fiveroute.heuristics.route_kernels import Case, collected, duration, in_time
 from fiveroute.heuristics.variation import crossover, mutate, random_route
 from fiveroute.kernels import kernel
 from fiveroute.limits import Clock, Limits
@@ -31,6 +31,7 @@ from fiveroute.problem import TeamOrienteering
 from fiveroute.randomness import RandomState, below, random_state, uniform
 from fiveroute.routes import Route
 from fiveroute.sampling import SampledLegs
+from fiveroute.stops import Stops
 
 __all__ = ["Genetics", "optimise_route"]
 

@@ -9,9 +9,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from fiveroute.heuristics.route_kernels import Stops, cheapest_place, remove, shift_in
+from fiveroute.heuristics.route_kernels import cheapest_place
 from fiveroute.kernels import kernel
 from fiveroute.randomness import RandomState, below
+from fiveroute.stops import Stops, insert_stop, remove_stops
 
 __all__ = ["crossover", "mutate", "random_route"]
 
@@ -30,7 +31,7 @@ def random_route(legs: NDArray[np.float64], stops: Stops, state: RandomState) ->
     stops[0], stops[1] = 0, size - 1
     length = 2
     for node in order[: below(state, size - 1)]:
-        length = shift_in(stops, length, cheapest_place(legs, stops, length, node)[1], node)
+        length = insert_stop(stops, length, cheapest_place(legs, stops, length, node)[1], node)
     return length
 
 
@@ -84,7 +85,7 @@ def mutate(legs: NDArray[np.float64], stops: Stops, length: int, state: RandomSt
         _exchange_strings(stops, length, state)
     elif kind <= 2 and length > 2:
         count = 1 + below(state, (length - 1) // 2)
-        length = remove(stops, length, 1 + below(state, length - 1 - count), count)
+        length = remove_stops(stops, length, 1 + below(state, length - 1 - count), count)
     else:
         length = _visit_group(legs, stops, length, 1 + below(state, 4), state)
     return length
@@ -116,7 +117,7 @@ def _visit_group(
         idle[stops[at]] = False
     centre = node = _random_idle(idle, size - length, state)
     for _ in range(min(count, size - length)):
-        length = shift_in(stops, length, cheapest_place(legs, stops, length, node)[1], node)
+        length = insert_stop(stops, length, cheapest_place(legs, stops, length, node)[1], node)
         idle[node] = False
         nearest = np.inf
         for other in range(1, size - 1):

@@ -12,10 +12,9 @@ from fiveroute.heuristics.route_kernels import (
     collected,
     duration,
     in_time,
-    remove,
-    shift_in,
     shorten,
 )
+from fiveroute.stops import insert_stop, remove_stops
 
 NO_SAMPLES = np.empty((1, 1, 0))
 
@@ -74,9 +73,9 @@ def test_duration_and_data_by_hand() -> None:
 
 def test_insertion_and_removal_undo_each_other() -> None:
     stops = np.array([0, 2, 3, 0])
-    assert shift_in(stops, 3, 1, 1) == 4
+    assert insert_stop(stops, 3, 1, 1) == 4
     assert stops.tolist() == [0, 1, 2, 3]
-    assert remove(stops, 4, 1, 2) == 2
+    assert remove_stops(stops, 4, 1, 2) == 2
     assert stops[:2].tolist() == [0, 3]
 
 

@@ -36,7 +36,7 @@ import numpy as np
 from fiveroute.kernels import kernel
 from fiveroute.routes import Route
 from fiveroute.sea.courses.outlook import Outlook
-from fiveroute.sea.courses.stops import Stops
+from fiveroute.stops import Stops
 
 __all__ = ["Course", "in_hand", "time_in_hand"]
 

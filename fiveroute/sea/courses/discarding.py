@@ -19,7 +19,7 @@ from fiveroute.kernels import kernel
 from fiveroute.routes import Route
 from fiveroute.sea.courses.course import Course, time_in_hand
 from fiveroute.sea.courses.outlook import Outlook
-from fiveroute.sea.courses.stops import Stops, remove_stops
+from fiveroute.stops import Stops, remove_stops
 
 __all__ = ["discard", "shed"]
 

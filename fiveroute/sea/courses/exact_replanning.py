@@ -22,7 +22,7 @@ from fiveroute.kernels import kernel
 from fiveroute.routes import Route
 from fiveroute.sea.courses.course import Course, time_in_hand
 from fiveroute.sea.courses.outlook import Outlook
-from fiveroute.sea.courses.stops import Ints
+from fiveroute.stops import Ints
 
 __all__ = ["EXACT", "best_courses"]
 

@@ -27,7 +27,7 @@ from fiveroute.sea.courses.course import Course, time_in_hand
 from fiveroute.sea.courses.discarding import discard
 from fiveroute.sea.courses.exact_replanning import EXACT, best_courses
 from fiveroute.sea.courses.outlook import Outlook
-from fiveroute.sea.courses.stops import Ints, Stops, insert_stop, remove_stops
+from fiveroute.stops import Ints, Stops, insert_stop, remove_stops
 
 __all__ = ["TRIALS", "replan_fleet"]
 

@@ -22,7 +22,7 @@ from fiveroute.randomness import RandomState, below, random_state, uniform
 from fiveroute.routes import Route
 from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.recourse import look_ahead, next_stop
-from fiveroute.sea.courses.stops import Ints
+from fiveroute.stops import Ints
 
 __all__ = ["best_options"]
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from fiveroute.kernels import kernel
 from fiveroute.sea.courses.course import Course, time_in_hand
 from fiveroute.sea.courses.outlook import Outlook
-from fiveroute.sea.courses.stops import Ints, Stops, remove_stops
+from fiveroute.stops import Ints, Stops, remove_stops
 
 __all__ = ["Offers", "offers"]
 

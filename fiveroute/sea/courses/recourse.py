@@ -37,7 +37,7 @@ from fiveroute.sea.courses.course import Course, in_hand
 from fiveroute.sea.courses.discarding import discard
 from fiveroute.sea.courses.outlook import Outlook
 from fiveroute.sea.courses.replanning import TRIALS, cheapest_place, replan
-from fiveroute.sea.courses.stops import Ints, Stops, insert_stop, remove_stops
+from fiveroute.stops import Ints, Stops, insert_stop, remove_stops
 
 __all__ = [
     "SKIPS",

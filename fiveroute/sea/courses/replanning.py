@@ -23,7 +23,7 @@ from fiveroute.randomness import RandomState, below, uniform
 from fiveroute.sea.courses.course import Course, time_in_hand
 from fiveroute.sea.courses.discarding import discard
 from fiveroute.sea.courses.outlook import Outlook
-from fiveroute.sea.courses.stops import Ints, Stops, insert_stop, remove_stops
+from fiveroute.stops import Ints, Stops, insert_stop, remove_stops
 
 __all__ = ["TRIALS", "cheapest_place", "replan"]
 

@@ -14,9 +14,9 @@ from fiveroute.kernels import kernel
 from fiveroute.routes import Plan
 from fiveroute.sea.courses.discarding import discard, shed
 from fiveroute.sea.courses.outlook import Outlook
-from fiveroute.sea.courses.stops import Stops, remove_stops
 from fiveroute.sea.luck import leg_luck
 from fiveroute.sea.run import Run, course_of
+from fiveroute.stops import Stops, remove_stops
 from fiveroute.tiers.actuation import LegLaw
 
 __all__ = ["Alone", "sail_alone"]

@@ -1,4 +1,4 @@
-"""A course as kernels have it: its stops in an array, from the anchor to the destination.
+"""A route as kernels have it: its stops in an array, from where it begins to the destination.
 
 The array has room for more stops than there are; how many count is told beside it. Stops come and
 go in place.
@@ -16,7 +16,7 @@ __all__ = ["Ints", "Stops", "insert_stop", "remove_stops"]
 Ints = NDArray[np.int64]
 
 Stops = Ints
-"""Vertices in the order of a course, room to spare behind them."""
+"""Vertices in the order of a route, room to spare behind them."""
 
 
 @kernel

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fiveroute.sea.courses.stops import insert_stop, remove_stops
+from fiveroute.stops import insert_stop, remove_stops
 
 
 @given(stops=st.lists(st.integers(0, 99), min_size=1, max_size=8), data=st.data())
